@@ -1,0 +1,5 @@
+//! Chapter 3: rational Bezier curves.
+
+mod homogeneous;
+
+pub use homogeneous::Projective;

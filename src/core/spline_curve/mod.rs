@@ -1,0 +1,5 @@
+//! Chapter 6: spline curves.
+
+mod nurbs;
+
+pub use nurbs::Nurbs;

@@ -1,0 +1,144 @@
+//! NURBS: `r = p/q` with `p = Σ cₖ wₖ bₖ` and `q = Σ wₖ bₖ`.
+//!
+//! Cartesian points and weights are kept exactly as given, never normalised. Every algorithm runs on the
+//! homogeneous spline with coefficients `(wₖ cₖ, wₖ)` and divides at the end. Course: section 6.1.
+
+use crate::core::bspline::{DeBoorScheme, Side, Spline, SplineError, SplineSpace};
+use crate::core::point::Point as _;
+use crate::core::rational_bezier::Projective;
+
+/// A rational spline curve, open or closed; all weights equal make it polynomial.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Nurbs<P: Projective> {
+    points: Spline<P>,
+    weights: Vec<f64>,
+    homogeneous: Spline<P::Homogeneous>,
+}
+
+impl<P: Projective> Nurbs<P> {
+    /// The curve with control points `points` and positive `weights`, one for each.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Spline::new`]; `SizeMismatch`, `NonFinite`, `WeightNotPositive` for the weights; `NonFinite` where the
+    /// product of a weight and a coordinate overflows.
+    pub fn new(space: SplineSpace, points: Vec<P>, weights: Vec<f64>) -> Result<Self, SplineError> {
+        let points = Spline::new(space, points)?;
+        if weights.len() != points.coefficients().len() {
+            let (expected, found) = (points.coefficients().len(), weights.len());
+            return Err(SplineError::SizeMismatch { what: "weights", expected, found });
+        }
+        if let Some(index) = weights.iter().position(|weight| !weight.is_finite()) {
+            return Err(SplineError::NonFinite { what: "weight", index, value: weights[index] });
+        }
+        if let Some(index) = weights.iter().position(|&weight| weight <= 0.0) {
+            return Err(SplineError::WeightNotPositive { index, value: weights[index] });
+        }
+        let lifted =
+            points.coefficients().iter().zip(&weights).map(|(point, &weight)| point.lift(weight)).collect();
+        let homogeneous = Spline::new(points.space().clone(), lifted)?;
+        Ok(Self { points, weights, homogeneous })
+    }
+
+    /// The polynomial curve: all weights 1.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Spline::new`].
+    pub fn polynomial(space: SplineSpace, points: Vec<P>) -> Result<Self, SplineError> {
+        let weights = vec![1.0; points.len()];
+        Self::new(space, points, weights)
+    }
+
+    /// The curve whose homogeneous form is `homogeneous`; points and weights are read off it.
+    ///
+    /// # Errors
+    ///
+    /// `WeightNotPositive`, `NonFinite`.
+    pub fn from_homogeneous(homogeneous: Spline<P::Homogeneous>) -> Result<Self, SplineError> {
+        let (space, coefficients) = homogeneous.into_parts();
+        let (points, weights) = coefficients.into_iter().map(P::project).unzip();
+        Self::new(space, points, weights)
+    }
+
+    /// The space of the homogeneous spline.
+    pub fn space(&self) -> &SplineSpace {
+        self.points.space()
+    }
+
+    /// The degree.
+    pub fn degree(&self) -> usize {
+        self.points.degree()
+    }
+
+    /// The control points, as given.
+    pub fn points(&self) -> &[P] {
+        self.points.coefficients()
+    }
+
+    /// The weights, as given.
+    pub fn weights(&self) -> &[f64] {
+        &self.weights
+    }
+
+    /// Whether all weights are the same number, so that the curve is polynomial.
+    pub fn is_polynomial(&self) -> bool {
+        self.weights.windows(2).all(|pair| pair[0].to_bits() == pair[1].to_bits())
+    }
+
+    /// The spline `Σ cₖ bₖ` of the control points without the weights; the curve itself if [`Self::is_polynomial`].
+    pub fn without_weights(&self) -> &Spline<P> {
+        &self.points
+    }
+
+    /// The homogeneous spline with coefficients `(wₖ cₖ, wₖ)`.
+    pub fn homogeneous(&self) -> &Spline<P::Homogeneous> {
+        &self.homogeneous
+    }
+
+    /// `r(t)`.
+    ///
+    /// # Errors
+    ///
+    /// `NonFinite`, `OutsideInterval`.
+    pub fn evaluate(&self, t: f64) -> Result<P, SplineError> {
+        if self.is_polynomial() {
+            return self.points.evaluate(t);
+        }
+        Ok(P::project(self.homogeneous.evaluate(t)?).0)
+    }
+
+    /// `r, r′, …` up to order `count`, the limits from `side` at a knot:
+    /// `r⁽ʲ⁾ = (p⁽ʲ⁾ − Σᵢ C(j,i) q⁽ⁱ⁾ r⁽ʲ⁻ⁱ⁾)/q`.
+    ///
+    /// # Errors
+    ///
+    /// `NonFinite`, `OutsideInterval`.
+    pub fn derivatives(&self, t: f64, count: usize, side: Side) -> Result<Vec<P>, SplineError> {
+        if self.is_polynomial() {
+            return self.points.derivatives(t, count, side);
+        }
+        let lifted = self.homogeneous.derivatives(t, count, side)?;
+        let weight = |j: usize| lifted[j].coordinate(P::DIMENSION);
+        let mut values: Vec<P> = Vec::with_capacity(count + 1);
+        for j in 0..=count {
+            let mut numerator = P::numerator(lifted[j]);
+            let mut binomial = 1.0;
+            for i in 1..=j {
+                binomial *= (j + 1 - i) as f64 / i as f64;
+                numerator = numerator - values[j - i] * (binomial * weight(i));
+            }
+            values.push(numerator * weight(0).recip());
+        }
+        Ok(values)
+    }
+
+    /// De Boor's scheme of the homogeneous spline at `t`.
+    ///
+    /// # Errors
+    ///
+    /// `NonFinite`, `OutsideInterval`.
+    pub fn de_boor_scheme(&self, t: f64) -> Result<DeBoorScheme<P::Homogeneous>, SplineError> {
+        self.homogeneous.de_boor_scheme(t)
+    }
+}

@@ -1,0 +1,3 @@
+//! What is drawn, not by whom.
+
+pub mod picture;

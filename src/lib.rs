@@ -1,0 +1,4 @@
+//! Spline Lab: the mathematics of B-splines, and what a laboratory for them needs.
+
+pub mod core;
+pub mod figure;
