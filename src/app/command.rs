@@ -1,0 +1,343 @@
+//! Everything that can be commanded: one enum gives menus, tooltips, shortcuts, the palette and the shortcut sheet.
+
+use eframe::egui::{Key, KeyboardShortcut, Modifiers};
+
+/// A command without arguments.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Command {
+    /// A new, empty document.
+    New,
+    /// Opens a document.
+    Open,
+    /// Saves the document.
+    Save,
+    /// Saves the document under another name.
+    SaveAs,
+    /// Writes a figure of the canvas.
+    ExportFigure,
+    /// Shows the first scene again.
+    FirstScene,
+    /// Closes the lab.
+    Quit,
+    /// Takes back the last step.
+    Undo,
+    /// Does again what was taken back.
+    Redo,
+    /// Deletes what is selected.
+    Delete,
+    /// Copies the selected object.
+    Duplicate,
+    /// Selects all control points.
+    SelectAll,
+    /// Selects nothing, ends a tool.
+    Escape,
+    /// The tool that selects and drags.
+    SelectTool,
+    /// The tool that draws a new curve.
+    DrawTool,
+    /// Inserts a knot at the parameter.
+    InsertKnot,
+    /// Removes the selected knot.
+    RemoveKnot,
+    /// Inserts a knot in the middle of every interval.
+    RefineUniformly,
+    /// Raises the degree, shape kept.
+    ElevateDegree,
+    /// Lowers the degree, shape nearly kept.
+    ReduceDegree,
+    /// Closes an open curve, opens a closed one.
+    ToggleClosed,
+    /// Reverses the direction.
+    Reverse,
+    /// All weights 1.
+    ResetWeights,
+    /// Fits everything into the canvas.
+    Fit,
+    /// Larger.
+    ZoomIn,
+    /// Smaller.
+    ZoomOut,
+    /// Grid on or off.
+    ToggleGrid,
+    /// Control polygon on or off.
+    TogglePolygon,
+    /// Curvature comb on or off.
+    ToggleComb,
+    /// De Boor's construction on or off.
+    ToggleConstruction,
+    /// Labels: none, index, weight, coordinates in turn.
+    CycleLabels,
+    /// Convex hull of the active control points on or off.
+    ToggleHull,
+    /// Circle of curvature on or off.
+    ToggleCircle,
+    /// Objects and lessons on or off.
+    ToggleLeftPanel,
+    /// Inspector, stepper and lesson on or off.
+    ToggleRightPanel,
+    /// Knot line on or off.
+    ToggleKnotLine,
+    /// Light look.
+    LookLight,
+    /// Dark look.
+    LookDark,
+    /// Look for a projector.
+    LookPresentation,
+    /// Plays the construction step by step, or stops.
+    StepperPlay,
+    /// One step on.
+    StepForward,
+    /// One step back.
+    StepBack,
+    /// Next lesson.
+    NextLesson,
+    /// Previous lesson.
+    PreviousLesson,
+    /// Finds a command by name.
+    Palette,
+    /// All shortcuts.
+    ShortcutSheet,
+}
+
+/// The menus, in order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Menu {
+    /// Files.
+    File,
+    /// Undo and selection.
+    Edit,
+    /// The selected curve.
+    Curve,
+    /// What is shown.
+    View,
+    /// Lessons and the stepper.
+    Lesson,
+    /// Help.
+    Help,
+}
+
+impl Menu {
+    /// All menus.
+    pub const ALL: [Self; 6] = [Self::File, Self::Edit, Self::Curve, Self::View, Self::Lesson, Self::Help];
+
+    /// The title.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::File => "File",
+            Self::Edit => "Edit",
+            Self::Curve => "Curve",
+            Self::View => "View",
+            Self::Lesson => "Lesson",
+            Self::Help => "Help",
+        }
+    }
+}
+
+const NONE: Modifiers = Modifiers::NONE;
+const COMMAND: Modifiers = Modifiers::COMMAND;
+const COMMAND_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND };
+
+impl Command {
+    /// All commands, in the order of menus, palette and sheet.
+    pub const ALL: [Self; 46] = [
+        Self::New,
+        Self::Open,
+        Self::Save,
+        Self::SaveAs,
+        Self::ExportFigure,
+        Self::FirstScene,
+        Self::Quit,
+        Self::Undo,
+        Self::Redo,
+        Self::Delete,
+        Self::Duplicate,
+        Self::SelectAll,
+        Self::Escape,
+        Self::SelectTool,
+        Self::DrawTool,
+        Self::InsertKnot,
+        Self::RemoveKnot,
+        Self::RefineUniformly,
+        Self::ElevateDegree,
+        Self::ReduceDegree,
+        Self::ToggleClosed,
+        Self::Reverse,
+        Self::ResetWeights,
+        Self::Fit,
+        Self::ZoomIn,
+        Self::ZoomOut,
+        Self::ToggleGrid,
+        Self::TogglePolygon,
+        Self::ToggleComb,
+        Self::ToggleConstruction,
+        Self::CycleLabels,
+        Self::ToggleHull,
+        Self::ToggleCircle,
+        Self::ToggleLeftPanel,
+        Self::ToggleRightPanel,
+        Self::ToggleKnotLine,
+        Self::LookLight,
+        Self::LookDark,
+        Self::LookPresentation,
+        Self::StepperPlay,
+        Self::StepForward,
+        Self::StepBack,
+        Self::NextLesson,
+        Self::PreviousLesson,
+        Self::Palette,
+        Self::ShortcutSheet,
+    ];
+
+    /// The words of menu and palette, and what the tooltip adds.
+    pub fn text(self) -> (&'static str, &'static str) {
+        match self {
+            Self::New => ("New", "Start with an empty sheet"),
+            Self::Open => ("Open…", "Open a document, or a figure that was made from one"),
+            Self::Save => ("Save", "Save the document"),
+            Self::SaveAs => ("Save as…", "Save under another name"),
+            Self::ExportFigure => ("Export figure…", "Write what the canvas shows as SVG, PDF or PNG"),
+            Self::FirstScene => ("Show the first scene", "Open the scene that the lab starts with"),
+            Self::Quit => ("Quit", "Close the lab"),
+            Self::Undo => ("Undo", "Take back the last step"),
+            Self::Redo => ("Redo", "Do again what was taken back"),
+            Self::Delete => ("Delete", "Delete the selected points, knot or object"),
+            Self::Duplicate => ("Duplicate", "Copy the selected object"),
+            Self::SelectAll => ("Select all points", "Select every control point of the object"),
+            Self::Escape => ("Deselect", "Select nothing; leave the drawing tool"),
+            Self::SelectTool => ("Select tool", "Select and drag points, knots and curves"),
+            Self::DrawTool => ("Draw a curve", "Click control points; Enter or double click ends, Backspace drops the last"),
+            Self::InsertKnot => ("Insert knot at t", "Insert a knot at the parameter; the shape is kept"),
+            Self::RemoveKnot => ("Remove knot", "Remove one copy of the selected knot; the deviation is measured"),
+            Self::RefineUniformly => ("Refine all intervals", "Insert a knot in the middle of every interval; the shape is kept"),
+            Self::ElevateDegree => ("Raise degree", "One degree up; the shape is kept"),
+            Self::ReduceDegree => ("Lower degree", "One degree down; the deviation is measured"),
+            Self::ToggleClosed => ("Close or open", "Close an open curve, open a closed one"),
+            Self::Reverse => ("Reverse direction", "Run through the curve the other way"),
+            Self::ResetWeights => ("All weights 1", "Make the curve polynomial"),
+            Self::Fit => ("Fit", "Show everything"),
+            Self::ZoomIn => ("Zoom in", "Larger"),
+            Self::ZoomOut => ("Zoom out", "Smaller"),
+            Self::ToggleGrid => ("Grid", "Show or hide the grid"),
+            Self::TogglePolygon => ("Control polygon", "Show or hide the control polygon"),
+            Self::ToggleComb => ("Curvature comb", "Show or hide the curvature comb"),
+            Self::ToggleConstruction => ("Construction at t", "Show or hide de Boor's construction"),
+            Self::CycleLabels => ("Point labels", "None, index, weight, coordinates in turn"),
+            Self::ToggleHull => ("Convex hull at t", "Show or hide the hull of the active control points"),
+            Self::ToggleCircle => ("Circle of curvature", "Show or hide the osculating circle at t"),
+            Self::ToggleLeftPanel => ("Objects and lessons", "Show or hide the left panel"),
+            Self::ToggleRightPanel => ("Inspector and stepper", "Show or hide the right panel"),
+            Self::ToggleKnotLine => ("Knot line", "Show or hide the knot line"),
+            Self::LookLight => ("Light look", "Dark ink on a light ground"),
+            Self::LookDark => ("Dark look", "Light ink on a dark ground"),
+            Self::LookPresentation => ("Presentation look", "Large type and thick lines for a projector"),
+            Self::StepperPlay => ("Play the construction", "Play de Boor's algorithm step by step, or pause"),
+            Self::StepForward => ("Step forward", "The next step of the algorithm"),
+            Self::StepBack => ("Step back", "The step before"),
+            Self::NextLesson => ("Next lesson", "Open the next lesson of the course"),
+            Self::PreviousLesson => ("Previous lesson", "Open the lesson before"),
+            Self::Palette => ("Find a command…", "Type a few letters of what you want to do"),
+            Self::ShortcutSheet => ("Shortcuts", "All keys and what the mouse does"),
+        }
+    }
+
+    /// The key, if there is one.
+    pub fn shortcut(self) -> Option<KeyboardShortcut> {
+        let (modifiers, key) = match self {
+            Self::New => (COMMAND, Key::N),
+            Self::Open => (COMMAND, Key::O),
+            Self::Save => (COMMAND, Key::S),
+            Self::SaveAs => (COMMAND_SHIFT, Key::S),
+            Self::ExportFigure => (COMMAND, Key::E),
+            Self::Quit => (COMMAND, Key::Q),
+            Self::Undo => (COMMAND, Key::Z),
+            Self::Redo => (COMMAND_SHIFT, Key::Z),
+            Self::Delete => (NONE, Key::Delete),
+            Self::Duplicate => (COMMAND, Key::D),
+            Self::SelectAll => (COMMAND, Key::A),
+            Self::Escape => (NONE, Key::Escape),
+            Self::SelectTool => (NONE, Key::V),
+            Self::DrawTool => (NONE, Key::D),
+            Self::InsertKnot => (NONE, Key::K),
+            Self::RemoveKnot => (Modifiers::SHIFT, Key::K),
+            Self::RefineUniformly => (NONE, Key::R),
+            Self::ElevateDegree => (NONE, Key::E),
+            Self::ReduceDegree => (Modifiers::SHIFT, Key::E),
+            Self::ToggleClosed => (NONE, Key::C),
+            Self::Fit => (NONE, Key::F),
+            Self::ZoomIn => (COMMAND, Key::Plus),
+            Self::ZoomOut => (COMMAND, Key::Minus),
+            Self::ToggleGrid => (NONE, Key::G),
+            Self::TogglePolygon => (NONE, Key::P),
+            Self::ToggleComb => (NONE, Key::U),
+            Self::ToggleConstruction => (NONE, Key::B),
+            Self::CycleLabels => (NONE, Key::L),
+            Self::ToggleHull => (NONE, Key::H),
+            Self::ToggleCircle => (NONE, Key::O),
+            Self::ToggleLeftPanel => (NONE, Key::F2),
+            Self::ToggleRightPanel => (NONE, Key::F3),
+            Self::ToggleKnotLine => (NONE, Key::F4),
+            Self::LookLight => (NONE, Key::F6),
+            Self::LookDark => (NONE, Key::F7),
+            Self::LookPresentation => (NONE, Key::F8),
+            Self::StepperPlay => (NONE, Key::Enter),
+            Self::StepForward => (NONE, Key::CloseBracket),
+            Self::StepBack => (NONE, Key::OpenBracket),
+            Self::NextLesson => (NONE, Key::PageDown),
+            Self::PreviousLesson => (NONE, Key::PageUp),
+            Self::Palette => (COMMAND, Key::P),
+            Self::ShortcutSheet => (NONE, Key::F1),
+            Self::FirstScene | Self::Reverse | Self::ResetWeights => return None,
+        };
+        Some(KeyboardShortcut::new(modifiers, key))
+    }
+
+    /// The menu that lists the command.
+    pub fn menu(self) -> Menu {
+        match self {
+            Self::New | Self::Open | Self::Save | Self::SaveAs | Self::ExportFigure | Self::FirstScene | Self::Quit => {
+                Menu::File
+            }
+            Self::Undo | Self::Redo | Self::Delete | Self::Duplicate | Self::SelectAll | Self::Escape => Menu::Edit,
+            Self::SelectTool
+            | Self::DrawTool
+            | Self::InsertKnot
+            | Self::RemoveKnot
+            | Self::RefineUniformly
+            | Self::ElevateDegree
+            | Self::ReduceDegree
+            | Self::ToggleClosed
+            | Self::Reverse
+            | Self::ResetWeights => Menu::Curve,
+            Self::StepperPlay | Self::StepForward | Self::StepBack | Self::NextLesson | Self::PreviousLesson => {
+                Menu::Lesson
+            }
+            Self::Palette | Self::ShortcutSheet => Menu::Help,
+            _ => Menu::View,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_two_commands_share_a_key() {
+        for (i, a) in Command::ALL.iter().enumerate() {
+            for b in &Command::ALL[i + 1..] {
+                assert!(
+                    a.shortcut().is_none() || a.shortcut() != b.shortcut(),
+                    "{a:?} and {b:?} are both on {:?}",
+                    a.shortcut()
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn every_command_is_listed_once() {
+        for (i, a) in Command::ALL.iter().enumerate() {
+            assert_eq!(Command::ALL.iter().position(|b| b == a), Some(i), "{a:?} is listed twice");
+        }
+    }
+}

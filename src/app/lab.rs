@@ -1,0 +1,249 @@
+//! The state that every panel and workspace shares: the open document with its undo, the view, the selection, what is
+//! hovered, the look, and the messages.
+
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
+use glam::DVec2;
+
+use crate::app::command::Command;
+use crate::core::spline_curve::Nurbs;
+use crate::course::{Lesson, Stepper, Verdict};
+use crate::document::{Edit, EditError, History, ObjectId, Outcome, ShapeChange, View};
+use crate::figure::theme::Theme;
+
+/// What is selected: one object, and some of its control points or one of its knots.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Selection {
+    /// The object that the inspector, the knot line and the stepper show.
+    pub object: Option<ObjectId>,
+    /// Indices of its selected control points.
+    pub points: BTreeSet<usize>,
+    /// Value of its selected knot.
+    pub knot: Option<f64>,
+}
+
+/// The thing under the pointer, in whichever view; all views light it up.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Hovered {
+    /// Nothing.
+    #[default]
+    Nothing,
+    /// A control point, and with it its B-spline.
+    Point(ObjectId, usize),
+    /// A knot, by value.
+    Knot(ObjectId, f64),
+    /// A place on a curve, by parameter.
+    Curve(ObjectId, f64),
+    /// An entry of the triangular scheme: level and position in it.
+    Entry(ObjectId, usize, usize),
+}
+
+/// What the left mouse button does on the canvas.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Tool {
+    /// Select, drag, marquee.
+    #[default]
+    Select,
+    /// Click control points of a new curve.
+    Draw,
+}
+
+/// Kind of a message.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tone {
+    /// Something was done.
+    Done,
+    /// Something could not be done.
+    Problem,
+}
+
+/// A message that is shown for a while.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Message {
+    /// Its kind.
+    pub tone: Tone,
+    /// The sentence.
+    pub text: String,
+}
+
+/// The stepper panel: which frame is shown and whether it plays.
+#[derive(Clone, Debug, Default)]
+pub struct StepperState {
+    /// Whether the panel is open; the canvas then shows the frame.
+    pub open: bool,
+    /// Index of the frame.
+    pub frame: usize,
+    /// Whether frames follow each other by themselves.
+    pub playing: bool,
+    /// Seconds since the last frame while playing.
+    pub elapsed: f64,
+}
+
+/// The lesson that is open.
+#[derive(Clone, Debug)]
+pub struct LessonState {
+    /// Index in the list of lessons.
+    pub index: usize,
+    /// The lesson.
+    pub lesson: Lesson,
+    /// What has been typed as an answer.
+    pub answer: String,
+    /// The verdict on the last answer.
+    pub verdict: Option<Verdict>,
+}
+
+/// Which page the right panel shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SidePage {
+    /// Properties of the selected object.
+    #[default]
+    Inspector,
+    /// The triangular scheme.
+    Stepper,
+    /// The open lesson.
+    Lesson,
+}
+
+/// The shared state.
+#[derive(Debug)]
+pub struct Lab {
+    /// The document and its undo.
+    pub history: History,
+    /// Camera, parameters, panels; saved with the document, not undone.
+    pub view: View,
+    /// Where the document was opened from or saved to.
+    pub path: Option<PathBuf>,
+    /// The selection.
+    pub selection: Selection,
+    /// What was under the pointer in the last frame.
+    pub hovered: Hovered,
+    /// What is found under the pointer in this frame; becomes [`Self::hovered`].
+    pub hovering: Hovered,
+    /// The tool.
+    pub tool: Tool,
+    /// Colours and sizes.
+    pub theme: Theme,
+    /// Page of the right panel.
+    pub side: SidePage,
+    /// The stepper panel.
+    pub stepper: StepperState,
+    /// The open lesson, if any.
+    pub lesson: Option<LessonState>,
+    /// What the last operation did to the shape, as a sentence for the status line.
+    pub shape_note: Option<String>,
+    /// Messages not yet shown.
+    pub messages: Vec<Message>,
+    /// Commands asked for by panels, carried out at the end of the frame.
+    pub commands: Vec<Command>,
+    /// Size of the canvas in points in the last frame.
+    pub canvas_size: DVec2,
+}
+
+impl Lab {
+    /// The curve of the selected object.
+    pub fn curve(&self) -> Option<&Nurbs<DVec2>> {
+        self.selection.object.and_then(|id| self.history.document().curve(id))
+    }
+
+    /// The parameter at which `object` is looked at; the middle of its interval if none was chosen yet.
+    pub fn parameter(&self, object: ObjectId) -> Option<f64> {
+        let (left, right) = self.history.document().curve(object)?.space().parameter_interval();
+        let middle = left + 0.5 * (right - left);
+        let chosen = self.view.parameters.get(&object).copied().unwrap_or(middle);
+        Some(chosen.clamp(left, right))
+    }
+
+    /// Chooses the parameter at which `object` is looked at, kept inside its interval. Not an edit: never undone.
+    pub fn set_parameter(&mut self, object: ObjectId, parameter: f64) {
+        if let Some(curve) = self.history.document().curve(object)
+            && parameter.is_finite()
+        {
+            let (left, right) = curve.space().parameter_interval();
+            self.view.parameters.insert(object, parameter.clamp(left, right));
+        }
+    }
+
+    /// Applies `edit` as one undo step; says what happened to the shape, or why it could not be done.
+    pub fn edit(&mut self, edit: Edit) -> Option<Outcome> {
+        let result = self.history.apply(edit);
+        self.report(result)
+    }
+
+    /// Starts an interaction such as a drag; see [`History::begin`].
+    pub fn begin(&mut self, name: impl Into<String>) {
+        if !self.history.is_interacting() {
+            self.history.begin(name);
+        }
+    }
+
+    /// The running interaction now amounts to `edit`, counted from its beginning.
+    pub fn update(&mut self, edit: Edit) {
+        match self.history.update(edit) {
+            Ok(outcome) => self.note_shape(&outcome.shape),
+            // A drag that runs into a limit stays at the last possible place; the status line says why.
+            Err(error) => self.shape_note = Some(error.to_string()),
+        }
+    }
+
+    /// Ends the interaction; it becomes one undo step if anything changed.
+    pub fn commit(&mut self) {
+        self.history.commit();
+    }
+
+    /// The stepper of the selected curve at its parameter.
+    pub fn scheme(&self) -> Option<Stepper> {
+        let object = self.selection.object?;
+        let parameter = self.parameter(object)?;
+        crate::course::de_boor_stepper(self.history.document().curve(object)?, parameter).ok()
+    }
+
+    /// Says something that was done.
+    pub fn done(&mut self, text: impl Into<String>) {
+        self.messages.push(Message { tone: Tone::Done, text: text.into() });
+    }
+
+    /// Says why something could not be done.
+    pub fn problem(&mut self, text: impl Into<String>) {
+        self.messages.push(Message { tone: Tone::Problem, text: text.into() });
+    }
+
+    /// Drops from the selection what no longer exists.
+    pub fn tidy_selection(&mut self) {
+        let document = self.history.document();
+        if self.selection.object.is_some_and(|id| document.object(id).is_none()) {
+            self.selection = Selection::default();
+        }
+        if self.selection.object.is_none() {
+            self.selection.object = document.objects().last().map(|object| object.id);
+        }
+        let count = self.curve().map_or(0, |curve| curve.points().len());
+        self.selection.points.retain(|&point| point < count);
+        if let Some(knot) = self.selection.knot
+            && self.curve().is_none_or(|curve| curve.space().multiplicity(knot) == 0)
+        {
+            self.selection.knot = None;
+        }
+        if let Some(stepper) = self.scheme() {
+            self.stepper.frame = self.stepper.frame.min(stepper.frames().len().saturating_sub(1));
+        }
+    }
+
+    fn report(&mut self, result: Result<Outcome, EditError>) -> Option<Outcome> {
+        match result {
+            Ok(outcome) => {
+                self.note_shape(&outcome.shape);
+                self.tidy_selection();
+                Some(outcome)
+            }
+            Err(error) => {
+                self.problem(error.to_string());
+                None
+            }
+        }
+    }
+
+    fn note_shape(&mut self, shape: &ShapeChange) {
+        self.shape_note = shape.sentence();
+    }
+}
