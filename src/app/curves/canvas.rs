@@ -1,0 +1,399 @@
+//! The canvas: camera, picture, handles, and the hands on them.
+
+use eframe::egui::{self, Align2, CursorIcon, Key, Modifiers, PointerButton, Pos2, Rect, Sense, Stroke, StrokeKind, Ui, vec2};
+use glam::DVec2;
+
+use crate::app::command::Command;
+use crate::app::curves::context_menu;
+use crate::app::curves::draw_tool::Drawing;
+use crate::app::curves::gesture::{GRID_SPACING, Gesture};
+use crate::app::curves::handles;
+use crate::app::curves::hit::{Target, target_at};
+use crate::app::lab::{Hovered, Lab, Tool};
+use crate::app::painter::{color32, paint_note, paint_picture, screen_from_world, world_from_screen};
+use crate::document::{CurveDisplay, Edit, ObjectId, PointLabels};
+use crate::figure::composition::{Composition, GRID, SchemeReveal, compose_with};
+use crate::figure::picture::Viewport;
+use crate::figure::ticks::tick_step;
+
+/// Room around the objects when they are fitted, in pt.
+const FIT_MARGIN: f64 = 60.0;
+
+/// Scales beyond these cannot be told from each other in f64 coordinates of ordinary size.
+const SCALES: std::ops::RangeInclusive<f64> = 1e-12..=1e14;
+
+/// The canvas of plane curves.
+#[derive(Debug, Default)]
+pub(crate) struct Canvas {
+    rect: Option<Rect>,
+    fitted: bool,
+    gesture: Option<Gesture>,
+    drawing: Drawing,
+    menu_target: Target,
+    panning: bool,
+    wheel: Option<WheelWeight>,
+}
+
+/// A weight that is being changed with the wheel; the turns that follow each other closely are one step.
+#[derive(Debug)]
+struct WheelWeight {
+    object: ObjectId,
+    point: usize,
+    weight: f64,
+    last: f64,
+}
+
+impl Canvas {
+    /// Shows the canvas in all the room that is left and lets hands work on it.
+    pub(crate) fn show(&mut self, lab: &mut Lab, ui: &mut Ui) {
+        let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
+        if rect.width() < 8.0 || rect.height() < 8.0 {
+            return;
+        }
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Canvas"));
+        self.rect = Some(rect);
+        lab.canvas_size = DVec2::new(f64::from(rect.width()), f64::from(rect.height()));
+        if !self.fitted || !lab.view.camera.scale.is_finite() || lab.view.camera.scale <= 0.0 {
+            self.fit(lab);
+        }
+        self.move_camera(lab, &response, rect, ui);
+        let viewport = viewport(lab);
+        let pointer = ui.input(|input| input.pointer.hover_pos()).filter(|_| response.contains_pointer());
+        let target = pointer.map_or(Target::Nothing, |pointer| target_at(lab, &viewport, rect, pointer));
+        self.use_hands(lab, &response, &viewport, rect, target, ui);
+        self.turn_wheel_on_weight(lab, target, ui);
+        nudge(lab, &viewport, ui);
+        hover(lab, target);
+        self.paint(lab, &viewport, rect, pointer, ui);
+        handles::announce(lab, &viewport, rect, ui);
+        self.point_cursor(lab, target, pointer, ui);
+        if response.secondary_clicked() {
+            self.menu_target = target;
+            if let Some(object) = target.object() {
+                lab.selection.object = Some(object);
+            }
+        }
+        if lab.tool == Tool::Select {
+            let target = self.menu_target;
+            response.context_menu(|ui| context_menu::show(target, lab, ui));
+        }
+    }
+
+    /// Where a world point is on the screen.
+    pub(crate) fn screen_from_world(&self, world: DVec2, lab: &Lab) -> Option<Pos2> {
+        self.rect.map(|rect| screen_from_world(&viewport(lab), rect, world))
+    }
+
+    /// Brings all objects into the canvas.
+    fn fit(&mut self, lab: &mut Lab) {
+        let (low, high) = lab.history.document().bounding_box().unwrap_or((DVec2::splat(-4.0), DVec2::splat(4.0)));
+        let margin = FIT_MARGIN.min(0.12 * lab.canvas_size.min_element());
+        let fitting = Viewport::fitting(low, high, lab.canvas_size, margin);
+        lab.view.camera.center = fitting.center;
+        lab.view.camera.scale = fitting.scale.clamp(*SCALES.start(), *SCALES.end());
+        self.fitted = true;
+    }
+
+    /// The commands that belong to the canvas.
+    pub(crate) fn execute(&mut self, command: Command, lab: &mut Lab) -> bool {
+        let zoom = |lab: &mut Lab, factor: f64| {
+            lab.view.camera.scale = (lab.view.camera.scale * factor).clamp(*SCALES.start(), *SCALES.end());
+        };
+        match command {
+            Command::Fit => self.fit(lab),
+            Command::ZoomIn => zoom(lab, 1.25),
+            Command::ZoomOut => zoom(lab, 0.8),
+            Command::ToggleGrid => {
+                let shown = lab.view.panels.get(GRID).copied().unwrap_or(true);
+                lab.view.panels.insert(GRID.to_owned(), !shown);
+            }
+            Command::SelectTool => lab.tool = Tool::Select,
+            Command::DrawTool => lab.tool = Tool::Draw,
+            Command::Escape => {
+                if self.gesture.take().is_some() {
+                    lab.history.cancel();
+                } else if lab.tool == Tool::Draw {
+                    lab.tool = Tool::Select;
+                } else {
+                    lab.selection.points.clear();
+                    lab.selection.knot = None;
+                }
+            }
+            Command::SelectAll => {
+                let count = lab.curve().map_or(0, |curve| curve.points().len());
+                lab.selection.points = (0..count).collect();
+            }
+            Command::Delete => delete(lab),
+            _ => return edit_selected(command, lab),
+        }
+        true
+    }
+
+    fn move_camera(&mut self, lab: &mut Lab, response: &egui::Response, rect: Rect, ui: &Ui) {
+        let space = ui.input(|input| input.key_down(Key::Space)) && !ui.text_edit_focused();
+        let middle = ui.input(|input| input.pointer.button_down(PointerButton::Middle));
+        let primary = ui.input(|input| input.pointer.primary_down());
+        let pan_keys = middle || (space && primary);
+        if pan_keys && (self.panning || response.contains_pointer()) && self.gesture.is_none() {
+            self.panning = true;
+            let moved = ui.input(|input| input.pointer.delta());
+            let shift = DVec2::new(f64::from(moved.x), -f64::from(moved.y)) / lab.view.camera.scale;
+            lab.view.camera.center -= shift;
+        } else {
+            self.panning = false;
+        }
+        let alt = ui.input(|input| input.modifiers.alt);
+        let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta(), input.zoom_delta()));
+        let factor = f64::from(pinch) * (f64::from(scroll.y) / 240.0).exp();
+        if let Some(pointer) = ui.input(|input| input.pointer.hover_pos()).filter(|_| response.contains_pointer() && !alt)
+            && (factor - 1.0).abs() > 1e-9
+        {
+            let before = world_from_screen(&viewport(lab), rect, pointer);
+            lab.view.camera.scale = (lab.view.camera.scale * factor).clamp(*SCALES.start(), *SCALES.end());
+            let after = world_from_screen(&viewport(lab), rect, pointer);
+            lab.view.camera.center += before - after;
+        }
+    }
+
+    fn use_hands(&mut self, lab: &mut Lab, response: &egui::Response, viewport: &Viewport, rect: Rect, target: Target, ui: &Ui) {
+        let keys = ui.input(|input| input.modifiers);
+        let Some(pointer) = ui.input(|input| input.pointer.latest_pos()) else { return };
+        let (pressed, down, released) = ui.input(|input| {
+            (input.pointer.primary_pressed(), input.pointer.primary_down(), input.pointer.primary_released())
+        });
+        if lab.tool == Tool::Draw {
+            if response.double_clicked() || response.secondary_clicked() {
+                self.drawing.finish(false, lab);
+            } else if response.clicked() {
+                self.drawing.click(world_from_screen(viewport, rect, pointer), pointer, lab, viewport, rect);
+            }
+            self.drawing.keys(lab, ui);
+            return;
+        }
+        if response.double_clicked()
+            && let Target::Curve(object, at) | Target::Knot(object, at) = target
+        {
+            self.gesture = None;
+            lab.edit(Edit::InsertKnot { object, at });
+            return;
+        }
+        if response.double_clicked() && target == Target::Nothing {
+            self.gesture = None;
+            return;
+        }
+        if pressed && response.contains_pointer() && !self.panning && !ui.ctx().is_popup_open() {
+            self.gesture = Some(Gesture::press(target, pointer, lab, viewport, rect, keys));
+        }
+        if let Some(mut gesture) = self.gesture.take() {
+            if down {
+                gesture.drag(pointer, lab, viewport, rect, keys);
+                self.gesture = Some(gesture);
+            } else {
+                if released {
+                    gesture.drag(pointer, lab, viewport, rect, keys);
+                }
+                gesture.release(lab, keys);
+            }
+        }
+    }
+
+    /// Alt and the wheel over a control point change its weight.
+    fn turn_wheel_on_weight(&mut self, lab: &mut Lab, target: Target, ui: &Ui) {
+        let (alt, scroll, now) =
+            ui.input(|input| (input.modifiers.alt, input.smooth_scroll_delta(), input.time));
+        let turned = f64::from(scroll.y + scroll.x);
+        if alt
+            && turned != 0.0
+            && self.gesture.is_none()
+            && let Target::Point(object, point) = target
+            && let Some(curve) = lab.history.document().curve(object)
+        {
+            let running = self.wheel.take().filter(|wheel| wheel.object == object && wheel.point == point);
+            let start = running.map_or(curve.weights()[point], |wheel| wheel.weight);
+            let weight = (start * (turned / 200.0).exp()).clamp(1e-6, 1e6);
+            lab.begin("Change weight");
+            lab.update(Edit::SetWeight { object, point, weight });
+            self.wheel = Some(WheelWeight { object, point, weight, last: now });
+        }
+        if let Some(wheel) = &self.wheel {
+            if now - wheel.last > 0.5 {
+                lab.commit();
+                self.wheel = None;
+            } else {
+                ui.request_repaint_after_secs(0.2);
+            }
+        }
+    }
+
+    fn paint(&self, lab: &Lab, viewport: &Viewport, rect: Rect, pointer: Option<Pos2>, ui: &Ui) {
+        let painter = ui.painter_at(rect);
+        let choices = Composition { reveal: reveal(lab), transparent: false };
+        let picture = compose_with(lab.history.document(), &lab.view, &lab.theme, viewport, &choices);
+        paint_picture(&picture, viewport, rect, &painter);
+        handles::paint(lab, viewport, rect, &painter);
+        if lab.tool == Tool::Draw {
+            self.drawing.paint(pointer, lab, viewport, rect, &painter);
+        }
+        if let Some(gesture) = &self.gesture
+            && let Some(marquee) = pointer.and_then(|pointer| gesture.marquee(pointer))
+        {
+            let ink = color32(lab.theme.selection);
+            painter.rect(marquee, 0.0, ink.gamma_multiply(0.12), Stroke::new(1.0, ink), StrokeKind::Inside);
+        }
+        let hint = hint(lab);
+        if let Some(hint) = hint {
+            let at = rect.center_top() + vec2(0.0, 14.0);
+            paint_note(&painter, at, Align2::CENTER_TOP, hint, 13.0, lab.theme.muted_text, lab.theme.background);
+        }
+    }
+
+    fn point_cursor(&self, lab: &Lab, target: Target, pointer: Option<Pos2>, ui: &Ui) {
+        if pointer.is_none() {
+            return;
+        }
+        let icon = match target {
+            _ if self.panning => CursorIcon::Grabbing,
+            _ if lab.tool == Tool::Draw => CursorIcon::Crosshair,
+            _ if self.gesture.is_some() => CursorIcon::Grabbing,
+            Target::Point(..) | Target::Bead(..) | Target::Parameter(_) => CursorIcon::Grab,
+            Target::Curve(..) | Target::Knot(..) => CursorIcon::PointingHand,
+            Target::Nothing => CursorIcon::Default,
+        };
+        ui.set_cursor_icon(icon);
+    }
+}
+
+/// The camera as a viewport of the canvas.
+fn viewport(lab: &Lab) -> Viewport {
+    Viewport { center: lab.view.camera.center, scale: lab.view.camera.scale, size: lab.canvas_size }
+}
+
+fn hint(lab: &Lab) -> Option<&'static str> {
+    if lab.tool == Tool::Draw {
+        return Some("Click control points. Enter or a double click ends, a click on the first point closes, Backspace drops the last.");
+    }
+    if lab.history.document().is_empty() {
+        return Some("Press D and click control points to draw a curve.");
+    }
+    let untouched = lab.history.steps() == (0, 0) && lab.path.is_none() && lab.lesson.is_none();
+    untouched.then_some("Drag a round handle.  Double-click a curve to insert a knot.  Slide the square to move t.")
+}
+
+/// The part of the scheme that the stepper shows.
+fn reveal(lab: &Lab) -> Option<(ObjectId, SchemeReveal)> {
+    if !lab.stepper.open {
+        return None;
+    }
+    let (object, stepper) = (lab.selection.object?, lab.scheme()?);
+    let frames = stepper.frames();
+    let frame = frames.get(lab.stepper.frame)?;
+    let shown = frames[..=lab.stepper.frame].iter().flat_map(|frame| frame.reveals.iter().copied()).collect();
+    Some((object, SchemeReveal { shown, highlighted: frame.highlights.iter().copied().collect() }))
+}
+
+fn hover(lab: &mut Lab, target: Target) {
+    let hovering = match target {
+        Target::Nothing => return,
+        Target::Point(object, point) | Target::Bead(object, point) => Hovered::Point(object, point),
+        Target::Knot(object, value) => Hovered::Knot(object, value),
+        Target::Curve(object, parameter) => Hovered::Curve(object, parameter),
+        Target::Parameter(object) => match lab.parameter(object) {
+            Some(parameter) => Hovered::Curve(object, parameter),
+            None => return,
+        },
+    };
+    lab.hovering = hovering;
+}
+
+/// Arrow keys move the selected points by a tenth of the grid, Shift ten times, Ctrl a tenth of that.
+fn nudge(lab: &mut Lab, viewport: &Viewport, ui: &Ui) {
+    if ui.text_edit_focused() || lab.selection.points.is_empty() || ui.memory(|memory| memory.focused().is_some()) {
+        return;
+    }
+    let Some(object) = lab.selection.object else { return };
+    for (key, direction) in
+        [(Key::ArrowLeft, -DVec2::X), (Key::ArrowRight, DVec2::X), (Key::ArrowUp, DVec2::Y), (Key::ArrowDown, -DVec2::Y)]
+    {
+        for (keys, factor) in [(Modifiers::NONE, 1.0), (Modifiers::SHIFT, 10.0), (Modifiers::CTRL, 0.1)] {
+            let pressed = ui.input_mut(|input| {
+                let wanted = input.modifiers.shift == keys.shift && input.modifiers.ctrl == keys.ctrl;
+                wanted && input.consume_key(input.modifiers, key)
+            });
+            if pressed {
+                let step = 0.1 * tick_step(GRID_SPACING / viewport.scale) * factor;
+                let points = lab.selection.points.iter().copied().collect();
+                lab.edit(Edit::MovePoints { object, points, delta: direction * step });
+            }
+        }
+    }
+}
+
+fn delete(lab: &mut Lab) {
+    let Some(object) = lab.selection.object else { return };
+    if let Some(at) = lab.selection.knot.take() {
+        lab.edit(Edit::RemoveKnot { object, at });
+    } else if lab.selection.points.is_empty() {
+        lab.edit(Edit::RemoveObjects { objects: vec![object] });
+    } else {
+        let points = std::mem::take(&mut lab.selection.points).into_iter().collect();
+        lab.edit(Edit::DeletePoints { object, points });
+    }
+}
+
+/// Commands that edit the selected curve or its display.
+fn edit_selected(command: Command, lab: &mut Lab) -> bool {
+    let Some(object) = lab.selection.object else { return false };
+    let Some(found) = lab.history.document().object(object) else { return false };
+    let mut display = found.display.clone();
+    let mut change = |change: fn(&mut CurveDisplay)| {
+        change(&mut display);
+        Edit::SetDisplay { object, display: display.clone() }
+    };
+    let curve = lab.history.document().curve(object);
+    let edit = match command {
+        Command::TogglePolygon => change(|display| display.polygon = !display.polygon),
+        Command::ToggleComb => change(|display| display.comb = !display.comb),
+        Command::ToggleConstruction => change(|display| display.construction = !display.construction),
+        Command::ToggleHull => change(|display| display.hull = !display.hull),
+        Command::ToggleCircle => change(|display| display.osculating_circle = !display.osculating_circle),
+        Command::CycleLabels => change(|display| {
+            display.labels = match display.labels {
+                PointLabels::None => PointLabels::Index,
+                PointLabels::Index => PointLabels::Weight,
+                PointLabels::Weight => PointLabels::Coordinates,
+                PointLabels::Coordinates => PointLabels::None,
+            }
+        }),
+        Command::Duplicate => Edit::DuplicateObject { object },
+        Command::InsertKnot => match lab.parameter(object) {
+            Some(at) => Edit::InsertKnot { object, at },
+            None => return true,
+        },
+        Command::RemoveKnot => match lab.selection.knot {
+            Some(at) => Edit::RemoveKnot { object, at },
+            None => {
+                lab.problem("Select a knot first: click its diamond on the curve or its handle on the knot line.");
+                return true;
+            }
+        },
+        Command::RefineUniformly => Edit::RefineUniformly { object },
+        Command::ElevateDegree => Edit::ElevateDegree { object },
+        Command::ReduceDegree => Edit::ReduceDegree { object },
+        Command::ToggleClosed => {
+            let closed = curve.is_some_and(|curve| curve.space().is_periodic());
+            Edit::SetClosed { object, closed: !closed }
+        }
+        Command::Reverse => Edit::Reverse { object },
+        Command::ResetWeights => {
+            let count = curve.map_or(0, |curve| curve.points().len());
+            Edit::SetWeights { object, weights: vec![1.0; count] }
+        }
+        _ => return false,
+    };
+    if let Some(outcome) = lab.edit(edit)
+        && let Some(&created) = outcome.created.first()
+    {
+        lab.selection.object = Some(created);
+    }
+    true
+}

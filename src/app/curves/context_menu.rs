@@ -1,0 +1,102 @@
+//! The menu of the thing under the pointer.
+
+use eframe::egui::{Button, Ui};
+
+use crate::app::command::Command;
+use crate::app::curves::hit::Target;
+use crate::app::lab::{Lab, Tool};
+use crate::document::Edit;
+use crate::figure::composition::short_number;
+
+/// Shows the entries that fit `target`.
+pub(super) fn show(target: Target, lab: &mut Lab, ui: &mut Ui) {
+    ui.set_min_width(190.0);
+    match target {
+        Target::Point(object, point) => {
+            let Some(weight) = lab.history.document().curve(object).map(|curve| curve.weights()[point]) else { return };
+            ui.weak(format!("Control point {point}, weight {}", short_number(weight)));
+            for (text, factor) in [("Weight × 2", 2.0), ("Weight ÷ 2", 0.5)] {
+                if ui.button(text).clicked() {
+                    lab.edit(Edit::SetWeight { object, point, weight: weight * factor });
+                }
+            }
+            if ui.add_enabled(weight.to_bits() != 1.0_f64.to_bits(), Button::new("Weight 1")).clicked() {
+                lab.edit(Edit::SetWeight { object, point, weight: 1.0 });
+            }
+            ui.separator();
+            if ui.button("Delete point").clicked() {
+                lab.edit(Edit::DeletePoints { object, points: vec![point] });
+            }
+        }
+        Target::Curve(object, parameter) => {
+            ui.weak(format!("t = {}", short_number(parameter)));
+            if ui.button("Insert knot here (shape kept)").clicked() {
+                lab.edit(Edit::InsertKnot { object, at: parameter });
+            }
+            if ui.button("Look at this t").clicked() {
+                lab.set_parameter(object, parameter);
+            }
+            ui.separator();
+            object_entries(lab, ui);
+        }
+        Target::Knot(object, value) => {
+            let multiplicity = lab.history.document().curve(object).map_or(0, |curve| curve.space().multiplicity(value));
+            ui.weak(format!("Knot {}, multiplicity {multiplicity}", short_number(value)));
+            if ui.button("One more copy (shape kept)").clicked() {
+                lab.edit(Edit::InsertKnot { object, at: value });
+            }
+            if ui.button("Remove one copy").clicked() {
+                lab.edit(Edit::RemoveKnot { object, at: value });
+            }
+            ui.separator();
+            object_entries(lab, ui);
+        }
+        Target::Parameter(object) => {
+            if let Some(parameter) = lab.parameter(object) {
+                ui.weak(format!("t = {}", short_number(parameter)));
+            }
+            entry(Command::InsertKnot, lab, ui);
+            entry(Command::ToggleConstruction, lab, ui);
+            entry(Command::ToggleCircle, lab, ui);
+            entry(Command::ToggleHull, lab, ui);
+        }
+        Target::Bead(object, point) => {
+            if ui.button("Weight 1").clicked() {
+                lab.edit(Edit::SetWeight { object, point, weight: 1.0 });
+            }
+        }
+        Target::Nothing => {
+            if ui.button("Draw a curve").clicked() {
+                lab.tool = Tool::Draw;
+            }
+            for command in [Command::Fit, Command::ToggleGrid, Command::SelectAll, Command::ExportFigure] {
+                entry(command, lab, ui);
+            }
+        }
+    }
+}
+
+fn object_entries(lab: &mut Lab, ui: &mut Ui) {
+    for command in [
+        Command::ToggleComb,
+        Command::TogglePolygon,
+        Command::ElevateDegree,
+        Command::ToggleClosed,
+        Command::Duplicate,
+    ] {
+        entry(command, lab, ui);
+    }
+    if ui.button("Delete curve").clicked()
+        && let Some(object) = lab.selection.object
+    {
+        lab.edit(Edit::RemoveObjects { objects: vec![object] });
+    }
+}
+
+fn entry(command: Command, lab: &mut Lab, ui: &mut Ui) {
+    let (text, hint) = command.text();
+    let shortcut = command.shortcut().map(|shortcut| ui.ctx().format_shortcut(&shortcut)).unwrap_or_default();
+    if ui.add(Button::new(text).shortcut_text(shortcut)).on_hover_text(hint).clicked() {
+        lab.commands.push(command);
+    }
+}

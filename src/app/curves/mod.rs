@@ -1,0 +1,51 @@
+//! The Curves workspace: a canvas on which spline curves are drawn, dragged and looked at.
+
+mod canvas;
+mod context_menu;
+mod draw_tool;
+mod gesture;
+mod handles;
+mod hit;
+
+use eframe::egui;
+
+use crate::app::command::Command;
+use crate::app::lab::Lab;
+use crate::app::workspace::Workspace;
+
+pub(crate) use canvas::Canvas;
+
+/// The workspace of plane curves.
+#[derive(Debug, Default)]
+pub(crate) struct Curves {
+    canvas: Canvas,
+}
+
+impl Workspace for Curves {
+    fn name(&self) -> &'static str {
+        "Curves"
+    }
+
+    fn panels(&mut self, lab: &mut Lab, ui: &mut egui::Ui) {
+        let open = |name: &str| lab.view.panels.get(name).copied().unwrap_or(true);
+        if open(crate::app::KNOT_LINE) {
+            egui::Panel::bottom("knot line")
+                .resizable(true)
+                .default_size(170.0)
+                .size_range(110.0..=420.0)
+                .show(ui, |ui| crate::app::knot_line::show(lab, ui));
+        }
+    }
+
+    fn canvas(&mut self, lab: &mut Lab, ui: &mut egui::Ui) {
+        self.canvas.show(lab, ui);
+    }
+
+    fn execute(&mut self, command: Command, lab: &mut Lab) -> bool {
+        self.canvas.execute(command, lab)
+    }
+
+    fn screen_from_world(&self, world: glam::DVec2, lab: &Lab) -> Option<egui::Pos2> {
+        self.canvas.screen_from_world(world, lab)
+    }
+}

@@ -1,0 +1,38 @@
+//! The window.
+//!
+//! [`lab::Lab`] is the state that everybody shares; a [`workspace::Workspace`] fills the middle; panels stand around it;
+//! [`command::Command`] is everything that can be commanded, [`files`] opens, saves and keeps safe.
+
+pub mod command;
+pub mod lab;
+
+mod curves;
+mod file_dialog;
+mod files;
+mod formula_view;
+mod inspector;
+mod knot_line;
+mod lesson_panel;
+mod look;
+mod menu_bar;
+mod number_field;
+mod object_list;
+mod painter;
+mod palette;
+mod preferences;
+mod shortcut_sheet;
+mod smoke_log;
+mod status_bar;
+mod stepper_panel;
+mod toolbar;
+mod window;
+mod workspace;
+
+pub use window::{LabApp, run};
+
+/// Entry of [`crate::document::View::panels`] for the panel with objects and lessons.
+pub(crate) const LEFT_PANEL: &str = "left";
+/// Entry for the panel with inspector, stepper and lesson.
+pub(crate) const RIGHT_PANEL: &str = "right";
+/// Entry for the knot line.
+pub(crate) const KNOT_LINE: &str = "knot_line";

@@ -1,0 +1,279 @@
+//! Paints a [`Picture`] with egui: cubics are flattened and clipped in f64 before anything becomes f32.
+
+use eframe::egui::{
+    Align2, Color32, FontFamily, FontId, Painter, Pos2, Rect, Shape, Stroke as PenStroke, Vec2, epaint, pos2, vec2,
+};
+use glam::DVec2;
+
+use crate::app::formula_view::paint_formula;
+use crate::figure::formula;
+use crate::figure::picture::{Anchor, Color, Item, Label, Marker, MarkerShape, Path, Picture, Segment, Viewport};
+
+/// Largest distance in pt between a painted polyline and the cubic it stands for.
+const FLATNESS: f64 = 0.1;
+
+/// A cubic is halved at most this often: with culling 40 levels reach every zoom that f64 allows.
+const MAX_DEPTH: u32 = 40;
+
+/// Margin around the canvas, in pt, within which lines are still painted (wide strokes, round ends).
+const MARGIN: f64 = 40.0;
+
+/// The colour as egui wants it.
+pub(crate) fn color32(color: Color) -> Color32 {
+    Color32::from_rgba_unmultiplied(color.r, color.g, color.b, color.a)
+}
+
+/// The screen position of a world point on the canvas `rect`.
+pub(crate) fn screen_from_world(viewport: &Viewport, rect: Rect, world: DVec2) -> Pos2 {
+    let page = viewport.page_from_world(world);
+    // Far outside the window f32 would be too coarse or overflow; nothing there is painted.
+    let bound = |value: f64| value.clamp(-1e6, 1e6) as f32;
+    rect.min + vec2(bound(page.x), bound(page.y))
+}
+
+/// The world point under a screen position on the canvas `rect`.
+pub(crate) fn world_from_screen(viewport: &Viewport, rect: Rect, screen: Pos2) -> DVec2 {
+    let page = screen - rect.min;
+    viewport.world_from_page(DVec2::new(f64::from(page.x), f64::from(page.y)))
+}
+
+/// Paints `picture` as seen through `viewport` onto `rect`.
+pub(crate) fn paint_picture(picture: &Picture, viewport: &Viewport, rect: Rect, painter: &Painter) {
+    let painter = painter.with_clip_rect(rect);
+    if let Some(background) = picture.background {
+        painter.rect_filled(rect, 0.0, color32(background));
+    }
+    for item in picture.layers.iter().flat_map(|layer| &layer.items) {
+        match item {
+            Item::Path(path) => paint_path(path, viewport, rect, &painter),
+            Item::Marker(marker) => paint_marker(marker, viewport, rect, &painter),
+            Item::Label(label) => paint_label(label, viewport, rect, &painter),
+        }
+    }
+}
+
+fn paint_path(path: &Path, viewport: &Viewport, rect: Rect, painter: &Painter) {
+    let page = DVec2::new(f64::from(rect.width()), f64::from(rect.height()));
+    for part in flatten(&path.segments, viewport, page) {
+        if let Some(fill) = path.fill {
+            let outline: Vec<Pos2> = part.iter().map(|&point| to_screen(point, rect)).collect();
+            painter.add(Shape::convex_polygon(outline, color32(fill), PenStroke::NONE));
+        }
+        if let Some(stroke) = &path.stroke {
+            let pen = PenStroke::new(stroke.width as f32, color32(stroke.color));
+            for line in clip(&part, page) {
+                let points: Vec<Pos2> = line.iter().map(|&point| to_screen(point, rect)).collect();
+                if stroke.dashes.is_empty() {
+                    painter.add(Shape::line(points, pen));
+                } else {
+                    let (dashes, gaps): (Vec<f32>, Vec<f32>) = stroke
+                        .dashes
+                        .chunks(2)
+                        .map(|pair| (pair[0] as f32, pair.get(1).copied().unwrap_or(pair[0]) as f32))
+                        .unzip();
+                    painter.extend(Shape::dashed_line_with_offset(&points, pen, &dashes, &gaps, 0.0));
+                }
+            }
+        }
+    }
+}
+
+fn to_screen(page: DVec2, rect: Rect) -> Pos2 {
+    rect.min + vec2(page.x.clamp(-1e6, 1e6) as f32, page.y.clamp(-1e6, 1e6) as f32)
+}
+
+/// Polylines in page coordinates, one per part of the path.
+fn flatten(segments: &[Segment], viewport: &Viewport, page: DVec2) -> Vec<Vec<DVec2>> {
+    let mut parts: Vec<Vec<DVec2>> = Vec::new();
+    for segment in segments {
+        match *segment {
+            Segment::Move(to) => parts.push(vec![viewport.page_from_world(to)]),
+            Segment::Line(to) => {
+                if let Some(part) = parts.last_mut() {
+                    part.push(viewport.page_from_world(to));
+                }
+            }
+            Segment::Cubic(a, b, to) => {
+                if let Some(part) = parts.last_mut()
+                    && let Some(&start) = part.last()
+                {
+                    let inner = [a, b, to].map(|point| viewport.page_from_world(point));
+                    flatten_cubic([start, inner[0], inner[1], inner[2]], page, MAX_DEPTH, part);
+                }
+            }
+            Segment::Close => {
+                if let Some(part) = parts.last_mut()
+                    && let Some(&start) = part.first()
+                {
+                    part.push(start);
+                }
+            }
+        }
+    }
+    parts
+}
+
+/// Appends the cubic without its start; pieces outside the page become one line.
+fn flatten_cubic(cubic: [DVec2; 4], page: DVec2, depth: u32, out: &mut Vec<DVec2>) {
+    let [a, b, c, d] = cubic;
+    let low = a.min(b).min(c).min(d);
+    let high = a.max(b).max(c).max(d);
+    let outside = high.cmplt(DVec2::splat(-MARGIN)).any() || low.cmpgt(page + MARGIN).any();
+    // The distance of a cubic from its chord, run through evenly, is at most √3/18 · max|second differences| · 3 < 0.3 · that.
+    let bend = (a - b * 2.0 + c).length().max((b - c * 2.0 + d).length());
+    if outside || depth == 0 || 0.6 * bend <= FLATNESS {
+        out.push(d);
+        return;
+    }
+    let (ab, bc, cd) = ((a + b) * 0.5, (b + c) * 0.5, (c + d) * 0.5);
+    let (abc, bcd) = ((ab + bc) * 0.5, (bc + cd) * 0.5);
+    let middle = (abc + bcd) * 0.5;
+    flatten_cubic([a, ab, abc, middle], page, depth - 1, out);
+    flatten_cubic([middle, bcd, cd, d], page, depth - 1, out);
+}
+
+/// The parts of a polyline inside the page with its margin (Liang and Barsky, 1984, edge by edge).
+fn clip(points: &[DVec2], page: DVec2) -> Vec<Vec<DVec2>> {
+    let (low, high) = (DVec2::splat(-MARGIN), page + MARGIN);
+    let mut lines: Vec<Vec<DVec2>> = Vec::new();
+    let mut open = false;
+    for edge in points.windows(2) {
+        let (from, to) = (edge[0], edge[1]);
+        let Some((enter, leave)) = clip_edge(from, to, low, high) else {
+            open = false;
+            continue;
+        };
+        let (start, end) = (from + (to - from) * enter, from + (to - from) * leave);
+        match lines.last_mut() {
+            Some(line) if open && enter <= 0.0 => line.push(end),
+            _ => lines.push(vec![start, end]),
+        }
+        open = leave >= 1.0;
+    }
+    lines
+}
+
+fn clip_edge(from: DVec2, to: DVec2, low: DVec2, high: DVec2) -> Option<(f64, f64)> {
+    let run = to - from;
+    let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
+    for axis in 0..2 {
+        if run[axis] == 0.0 {
+            if from[axis] < low[axis] || from[axis] > high[axis] {
+                return None;
+            }
+            continue;
+        }
+        let (a, b) = ((low[axis] - from[axis]) / run[axis], (high[axis] - from[axis]) / run[axis]);
+        enter = enter.max(a.min(b));
+        leave = leave.min(a.max(b));
+    }
+    (enter <= leave).then_some((enter, leave))
+}
+
+fn paint_marker(marker: &Marker, viewport: &Viewport, rect: Rect, painter: &Painter) {
+    let center = screen_from_world(viewport, rect, marker.at);
+    let half = 0.5 * marker.size as f32;
+    if !rect.expand(half + 4.0).contains(center) {
+        return;
+    }
+    let fill = marker.fill.map_or(Color32::TRANSPARENT, color32);
+    let pen = marker
+        .stroke
+        .as_ref()
+        .map_or(PenStroke::NONE, |stroke| PenStroke::new(stroke.width as f32, color32(stroke.color)));
+    let polygon = |corners: &[(f32, f32)]| {
+        let corners = corners.iter().map(|&(x, y)| center + vec2(x, y) * half).collect();
+        painter.add(Shape::convex_polygon(corners, fill, pen));
+    };
+    match marker.shape {
+        MarkerShape::Disc => {
+            painter.circle(center, half, fill, pen);
+        }
+        MarkerShape::Square => polygon(&[(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]),
+        MarkerShape::Diamond => polygon(&[(0.0, -1.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0)]),
+        MarkerShape::Triangle => polygon(&[(0.0, -1.0), (0.87, 0.5), (-0.87, 0.5)]),
+        MarkerShape::Cross => {
+            painter.line_segment([center - Vec2::splat(half), center + Vec2::splat(half)], pen);
+            painter.line_segment([center + vec2(-half, half), center + vec2(half, -half)], pen);
+        }
+    }
+}
+
+fn paint_label(label: &Label, viewport: &Viewport, rect: Rect, painter: &Painter) {
+    let place = screen_from_world(viewport, rect, label.at) + vec2(label.offset.x as f32, -label.offset.y as f32);
+    if !rect.expand(200.0).contains(place) {
+        return;
+    }
+    let ink = color32(label.color);
+    if label.math
+        && let Ok(layout) = formula::layout(&label.text, label.size)
+    {
+        let shift = anchor_share(label.anchor) * layout.width as f32;
+        paint_formula(painter, pos2(place.x - shift, place.y), &layout, ink);
+        return;
+    }
+    let font = FontId::new(label.size as f32, FontFamily::Proportional);
+    let galley = painter.layout_no_wrap(label.text.clone(), font, ink);
+    let shift = anchor_share(label.anchor) * galley.size().x;
+    painter.galley(pos2(place.x - shift, place.y - baseline(&galley)), galley, ink);
+}
+
+fn anchor_share(anchor: Anchor) -> f32 {
+    match anchor {
+        Anchor::Start => 0.0,
+        Anchor::Middle => 0.5,
+        Anchor::End => 1.0,
+    }
+}
+
+/// Distance from the top of the galley to the base line of its first row.
+pub(crate) fn baseline(galley: &epaint::Galley) -> f32 {
+    let Some(row) = galley.rows.first() else { return 0.0 };
+    row.pos.y + row.row.glyphs.first().map_or(row.size.y * 0.8, |glyph| glyph.pos.y)
+}
+
+/// A short text with the ground of the canvas behind it, so that lines do not run through it.
+pub(crate) fn paint_note(painter: &Painter, at: Pos2, anchor: Align2, text: &str, size: f32, ink: Color, ground: Color) {
+    let galley = painter.layout_no_wrap(text.to_owned(), FontId::proportional(size), color32(ink));
+    let place = anchor.anchor_size(at, galley.size());
+    painter.rect_filled(place.expand2(vec2(6.0, 3.0)), 4.0, color32(ground.with_opacity(0.85)));
+    painter.galley(place.min, galley, color32(ink));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn flattening_keeps_its_promise() {
+        let cubic = [(0.0, 0.0), (500.0, 900.0), (-200.0, 700.0), (600.0, 10.0)].map(|(x, y)| DVec2::new(x, y));
+        let mut line = vec![cubic[0]];
+        flatten_cubic(cubic, DVec2::splat(1000.0), MAX_DEPTH, &mut line);
+        for step in 0..=2000 {
+            let t = f64::from(step) / 2000.0;
+            let s = 1.0 - t;
+            let point = cubic[0] * s.powi(3)
+                + cubic[1] * (3.0 * s * s * t)
+                + cubic[2] * (3.0 * s * t * t)
+                + cubic[3] * t.powi(3);
+            let distance = line
+                .windows(2)
+                .map(|edge| {
+                    let run = edge[1] - edge[0];
+                    let share = ((point - edge[0]).dot(run) / run.length_squared().max(1e-300)).clamp(0.0, 1.0);
+                    point.distance(edge[0] + run * share)
+                })
+                .fold(f64::INFINITY, f64::min);
+            assert!(distance <= FLATNESS, "t = {t}: {distance}");
+        }
+    }
+
+    #[test]
+    fn a_line_that_runs_through_the_page_is_cut_at_its_margin() {
+        let page = DVec2::new(100.0, 100.0);
+        let lines = clip(&[DVec2::new(-1e12, 50.0), DVec2::new(1e12, 50.0)], page);
+        assert_eq!(lines.len(), 1, "{lines:?}");
+        assert!((lines[0][0].x + MARGIN).abs() < 1e-3 && (lines[0][1].x - 100.0 - MARGIN).abs() < 1e-3, "{lines:?}");
+        assert!(clip(&[DVec2::new(-500.0, -500.0), DVec2::new(-500.0, 900.0)], page).is_empty(), "left of the page");
+    }
+}

@@ -1,0 +1,296 @@
+//! The window: panels around a workspace, shortcuts, and the order of work in one frame.
+
+use std::path::PathBuf;
+
+use eframe::egui::{self, Panel, Ui};
+
+use crate::app::command::Command;
+use crate::app::files::Files;
+use crate::app::lab::{Hovered, Lab, Selection, SidePage, StepperState, Tone, Tool};
+use crate::app::palette::Palette;
+use crate::app::shortcut_sheet::ShortcutSheet;
+use crate::app::smoke_log::SmokeLog;
+use crate::app::workspace::{self, Workspace};
+use crate::app::{
+    LEFT_PANEL, RIGHT_PANEL, files, inspector, lesson_panel, look, menu_bar, object_list, status_bar, stepper_panel, toolbar,
+};
+use crate::document::{History, samples};
+use crate::figure::theme::Theme;
+
+/// The program with its window.
+pub struct LabApp {
+    lab: Lab,
+    workspaces: Vec<Box<dyn Workspace>>,
+    current: usize,
+    files: Files,
+    palette: Palette,
+    shortcut_sheet: ShortcutSheet,
+    notices: egui_notify::Toasts,
+    smoke_log: Option<SmokeLog>,
+    styled: Option<String>,
+}
+
+impl std::fmt::Debug for LabApp {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("LabApp").field("lab", &self.lab).field("current", &self.current).finish_non_exhaustive()
+    }
+}
+
+/// Opens the window, with the document in `file` or the first scene.
+///
+/// # Errors
+///
+/// What eframe reports when there is no display or no graphics adapter.
+pub fn run(file: Option<PathBuf>) -> eframe::Result {
+    let viewport = egui::ViewportBuilder::default()
+        .with_title("Spline Lab")
+        .with_app_id("spline-lab")
+        .with_inner_size([1280.0, 800.0])
+        .with_min_inner_size([640.0, 420.0])
+        .with_drag_and_drop(true);
+    let options = eframe::NativeOptions { viewport, ..Default::default() };
+    eframe::run_native("spline-lab", options, Box::new(|cc| Ok(Box::new(LabApp::new(&cc.egui_ctx, file)))))
+}
+
+impl LabApp {
+    /// The program as it starts, with the document in `file` or the first scene.
+    pub fn new(ctx: &egui::Context, file: Option<PathBuf>) -> Self {
+        ctx.set_fonts(look::fonts());
+        ctx.options_mut(|options| options.zoom_with_keyboard = false);
+        let (document, view) = samples::first_scene();
+        let selected = view.selected_object.or_else(|| document.objects().first().map(|object| object.id));
+        let mut lab = Lab {
+            history: History::new(document),
+            view,
+            path: None,
+            selection: Selection { object: selected, ..Selection::default() },
+            hovered: Hovered::Nothing,
+            hovering: Hovered::Nothing,
+            tool: Tool::Select,
+            theme: Theme::light(),
+            side: SidePage::Inspector,
+            stepper: StepperState::default(),
+            lesson: None,
+            shape_note: None,
+            messages: Vec::new(),
+            commands: Vec::new(),
+            canvas_size: glam::DVec2::new(800.0, 600.0),
+        };
+        let files = Files::new(file, &mut lab);
+        Self {
+            lab,
+            workspaces: workspace::all(),
+            current: 0,
+            files,
+            palette: Palette::default(),
+            shortcut_sheet: ShortcutSheet::default(),
+            notices: egui_notify::Toasts::default().with_anchor(egui_notify::Anchor::BottomRight),
+            smoke_log: SmokeLog::from_environment(),
+            styled: None,
+        }
+    }
+
+    /// The shared state.
+    pub fn lab(&self) -> &Lab {
+        &self.lab
+    }
+
+    /// The shared state, to be changed by tests and by what starts the program.
+    pub fn lab_mut(&mut self) -> &mut Lab {
+        &mut self.lab
+    }
+
+    /// One frame.
+    pub fn frame(&mut self, ui: &mut Ui) {
+        if self.styled.as_deref() != Some(&self.lab.theme.name) {
+            look::apply(&self.lab.theme, ui.ctx());
+            self.styled = Some(self.lab.theme.name.to_string());
+        }
+        self.lab.hovered = std::mem::take(&mut self.lab.hovering);
+        self.lab.tidy_selection();
+        let busy = self.files.is_asking() || self.palette.is_open();
+        Panel::top("menu").show(ui, |ui| {
+            menu_bar::show(&mut self.lab, &self.files, ui);
+            toolbar::show(&mut self.lab, ui);
+        });
+        Panel::bottom("status").show(ui, |ui| status_bar::show(&self.lab, ui));
+        self.side_panels(ui);
+        let workspace = &mut self.workspaces[self.current];
+        workspace.panels(&mut self.lab, ui);
+        egui::CentralPanel::default()
+            .frame(egui::Frame::NONE)
+            .show(ui, |ui| workspace.canvas(&mut self.lab, ui));
+        self.palette.show(&mut self.lab, ui);
+        self.shortcut_sheet.show(&self.lab, ui);
+        self.files.ui(&mut self.lab, ui);
+        if !busy {
+            self.read_shortcuts(ui);
+        }
+        for command in std::mem::take(&mut self.lab.commands) {
+            self.execute(command, ui.ctx());
+        }
+        self.say(ui.ctx());
+        if let Some(log) = &mut self.smoke_log {
+            let (lab, workspace) = (&self.lab, &self.workspaces[self.current]);
+            log.frame(lab, &|world| workspace.screen_from_world(world, lab), ui.ctx());
+        }
+    }
+
+    fn side_panels(&mut self, ui: &mut Ui) {
+        let lab = &mut self.lab;
+        let open = |lab: &Lab, name: &str| lab.view.panels.get(name).copied().unwrap_or(true);
+        if open(lab, LEFT_PANEL) {
+            Panel::left(LEFT_PANEL).default_size(184.0).size_range(140.0..=360.0).show(ui, |ui| {
+                object_list::show(lab, ui);
+                ui.add_space(10.0);
+                lesson_panel::show_list(lab, ui);
+            });
+        }
+        if open(lab, RIGHT_PANEL) {
+            Panel::right(RIGHT_PANEL).default_size(290.0).size_range(230.0..=560.0).show(ui, |ui| {
+                ui.add_space(4.0);
+                ui.horizontal(|ui| {
+                    for (page, text) in
+                        [(SidePage::Inspector, "Inspector"), (SidePage::Stepper, "Stepper"), (SidePage::Lesson, "Lesson")]
+                    {
+                        ui.selectable_value(&mut lab.side, page, text);
+                    }
+                });
+                ui.separator();
+                lab.stepper.open = lab.side == SidePage::Stepper;
+                match lab.side {
+                    SidePage::Inspector => inspector::show(lab, ui),
+                    SidePage::Stepper => stepper_panel::show(lab, ui),
+                    SidePage::Lesson => lesson_panel::show(lab, ui),
+                }
+            });
+        } else {
+            lab.stepper.open = false;
+        }
+    }
+
+    /// Shortcuts act unless somebody is typing.
+    fn read_shortcuts(&mut self, ui: &Ui) {
+        if ui.text_edit_focused() {
+            return;
+        }
+        // A shortcut with more modifiers must be asked for first, or Ctrl+Z would answer to Ctrl+Shift+Z.
+        let mut commands: Vec<Command> = Command::ALL.into_iter().filter(|command| command.shortcut().is_some()).collect();
+        commands.sort_by_key(|command| {
+            command.shortcut().map_or(0, |shortcut| {
+                let keys = shortcut.modifiers;
+                -(i32::from(keys.shift) + i32::from(keys.command) + i32::from(keys.alt))
+            })
+        });
+        for command in commands {
+            if let Some(shortcut) = command.shortcut()
+                && ui.input_mut(|input| input.consume_shortcut(&shortcut))
+            {
+                self.lab.commands.push(command);
+            }
+        }
+        let redo = egui::KeyboardShortcut::new(egui::Modifiers::COMMAND, egui::Key::Y);
+        if ui.input_mut(|input| input.consume_shortcut(&redo)) {
+            self.lab.commands.push(Command::Redo);
+        }
+    }
+
+    fn execute(&mut self, command: Command, ctx: &egui::Context) {
+        let lab = &mut self.lab;
+        if self.workspaces[self.current].execute(command, lab) || self.files.execute(command, lab, ctx) {
+            return;
+        }
+        match command {
+            Command::Undo => {
+                if lab.history.undo().is_some() {
+                    lab.shape_note = None;
+                    lab.tidy_selection();
+                }
+            }
+            Command::Redo => {
+                if lab.history.redo().is_some() {
+                    lab.shape_note = None;
+                    lab.tidy_selection();
+                }
+            }
+            Command::ToggleLeftPanel => toggle(lab, LEFT_PANEL),
+            Command::ToggleRightPanel => toggle(lab, RIGHT_PANEL),
+            Command::ToggleKnotLine => toggle(lab, crate::app::KNOT_LINE),
+            Command::LookLight => lab.theme = Theme::light(),
+            Command::LookDark => lab.theme = Theme::dark(),
+            Command::LookPresentation => lab.theme = Theme::presentation(),
+            Command::StepperPlay => {
+                open_stepper(lab);
+                lab.stepper.playing = !lab.stepper.playing;
+                let last = last_frame(lab);
+                if lab.stepper.playing && lab.stepper.frame >= last {
+                    lab.stepper.frame = 0;
+                }
+            }
+            Command::StepForward => {
+                open_stepper(lab);
+                lab.stepper.playing = false;
+                lab.stepper.frame = (lab.stepper.frame + 1).min(last_frame(lab));
+            }
+            Command::StepBack => {
+                open_stepper(lab);
+                lab.stepper.playing = false;
+                lab.stepper.frame = lab.stepper.frame.saturating_sub(1);
+            }
+            Command::NextLesson => turn_page(lab, 1),
+            Command::PreviousLesson => turn_page(lab, -1),
+            Command::Palette => self.palette.open(),
+            Command::ShortcutSheet => self.shortcut_sheet.toggle(),
+            _ => {}
+        }
+    }
+
+    fn say(&mut self, ctx: &egui::Context) {
+        for message in self.lab.messages.drain(..) {
+            let seconds = 4.0 + 0.06 * message.text.len() as f32;
+            let notice = match message.tone {
+                Tone::Done => self.notices.success(message.text),
+                Tone::Problem => self.notices.error(message.text),
+            };
+            notice.duration(std::time::Duration::from_secs_f32(seconds));
+        }
+        self.notices.show(ctx);
+    }
+}
+
+impl eframe::App for LabApp {
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        self.frame(ui);
+    }
+
+    fn on_exit(&mut self) {
+        self.files.close(&mut self.lab);
+    }
+}
+
+fn toggle(lab: &mut Lab, panel: &str) {
+    let open = lab.view.panels.get(panel).copied().unwrap_or(true);
+    lab.view.panels.insert(panel.to_owned(), !open);
+}
+
+fn open_stepper(lab: &mut Lab) {
+    lab.view.panels.insert(RIGHT_PANEL.to_owned(), true);
+    lab.side = SidePage::Stepper;
+    lab.stepper.open = true;
+}
+
+fn last_frame(lab: &Lab) -> usize {
+    lab.scheme().map_or(0, |stepper| stepper.frames().len().saturating_sub(1))
+}
+
+fn turn_page(lab: &mut Lab, step: isize) {
+    let count = crate::course::lessons().len();
+    let next = match &lab.lesson {
+        None => 0,
+        Some(state) => state.index.saturating_add_signed(step).min(count.saturating_sub(1)),
+    };
+    if lab.lesson.as_ref().is_none_or(|state| state.index != next) {
+        files::open_lesson(lab, next);
+        lab.side = SidePage::Lesson;
+    }
+}

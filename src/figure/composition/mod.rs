@@ -1,0 +1,97 @@
+//! The picture of a document: what the canvas shows and the exporters write.
+//!
+//! Layers from back to front: the grid, then for every visible object comb, hull, polygon, curve, construction, knots,
+//! points and labels, each in a layer named after the object.
+
+mod construction;
+mod curve_layers;
+
+use glam::DVec2;
+
+use crate::core::spline_curve::Nurbs;
+use crate::document::{Content, Document, Object, View};
+use crate::figure::picture::{Picture, Viewport};
+use crate::figure::theme::Theme;
+use crate::figure::ticks::grid_items;
+
+pub use construction::{SchemeReveal, construction_items};
+
+/// Name of the entry of [`View::panels`] that says whether the grid is drawn; it is if there is no entry.
+pub const GRID: &str = "grid";
+
+/// How much of de Boor's construction is drawn, per object; everything if nothing is said.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Composition {
+    /// The object whose construction is being stepped through, and the entries shown so far.
+    pub reveal: Option<(crate::document::ObjectId, SchemeReveal)>,
+    /// Whether the ground is filled.
+    pub transparent: bool,
+}
+
+/// The picture of all visible objects of `document` for `viewport`.
+pub fn compose(document: &Document, view: &View, theme: &Theme, viewport: &Viewport) -> Picture {
+    compose_with(document, view, theme, viewport, &Composition::default())
+}
+
+/// As [`compose`], with choices.
+pub fn compose_with(
+    document: &Document,
+    view: &View,
+    theme: &Theme,
+    viewport: &Viewport,
+    choices: &Composition,
+) -> Picture {
+    let mut picture = Picture::new((!choices.transparent).then_some(theme.background));
+    if view.panels.get(GRID).copied().unwrap_or(true) {
+        picture.push_layer("grid", grid_items(viewport, theme));
+    }
+    for object in document.objects().iter().filter(|object| object.visible) {
+        let Content::Curve(curve) = &object.content;
+        let parameter = parameter_of(curve, view.parameters.get(&object.id).copied());
+        let reveal = choices.reveal.as_ref().filter(|(id, _)| *id == object.id).map(|(_, reveal)| reveal);
+        push_curve(&mut picture, object, curve, parameter, reveal, theme, viewport);
+    }
+    picture
+}
+
+/// The chosen parameter kept inside the interval of `curve`; its middle if none was chosen.
+pub fn parameter_of(curve: &Nurbs<DVec2>, chosen: Option<f64>) -> f64 {
+    let (left, right) = curve.space().parameter_interval();
+    chosen.unwrap_or(left + 0.5 * (right - left)).clamp(left, right)
+}
+
+fn push_curve(
+    picture: &mut Picture,
+    object: &Object,
+    curve: &Nurbs<DVec2>,
+    parameter: f64,
+    reveal: Option<&SchemeReveal>,
+    theme: &Theme,
+    viewport: &Viewport,
+) {
+    let display = &object.display;
+    let layer = |part: &str| format!("{}: {part}", object.name);
+    if display.comb {
+        picture.push_layer(layer("curvature comb"), curve_layers::comb(curve, display, theme));
+    }
+    if display.hull {
+        picture.push_layer(layer("convex hull"), curve_layers::hull(curve, parameter, display, theme));
+    }
+    if display.osculating_circle {
+        picture.push_layer(layer("circle of curvature"), curve_layers::circle(curve, parameter, theme));
+    }
+    if display.polygon {
+        picture.push_layer(layer("control polygon"), curve_layers::polygon(curve, theme));
+    }
+    picture.push_layer(layer("curve"), curve_layers::curve(curve, display, theme, viewport));
+    if display.construction || reveal.is_some() {
+        picture.push_layer(layer("construction"), construction_items(curve, parameter, reveal, display, theme));
+    }
+    if display.knots {
+        picture.push_layer(layer("knots"), curve_layers::knots(curve, display, theme));
+    }
+    if display.points {
+        picture.push_layer(layer("control points"), curve_layers::points(curve, display, theme));
+    }
+    picture.push_layer(layer("labels"), curve_layers::labels(curve, display, theme));
+}
