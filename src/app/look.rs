@@ -39,7 +39,7 @@ pub(crate) fn fonts() -> FontDefinitions {
 
 /// Makes egui look like `theme`.
 pub(crate) fn apply(theme: &Theme, ctx: &egui::Context) {
-    let dark = luminance(theme.background) < 0.4;
+    let dark = theme.is_dark;
     ctx.set_theme(if dark { egui::Theme::Dark } else { egui::Theme::Light });
     let mut visuals = if dark { Visuals::dark() } else { Visuals::light() };
     let text = color32(theme.text);
@@ -91,8 +91,4 @@ pub(crate) fn apply(theme: &Theme, ctx: &egui::Context) {
             style.text_styles.insert(text_style, FontId::new(size * scale, family));
         }
     });
-}
-
-fn luminance(color: crate::figure::picture::Color) -> f64 {
-    (0.2126 * f64::from(color.r) + 0.7152 * f64::from(color.g) + 0.0722 * f64::from(color.b)) / 255.0
 }

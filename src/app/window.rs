@@ -27,7 +27,7 @@ pub struct LabApp {
     shortcut_sheet: ShortcutSheet,
     notices: egui_notify::Toasts,
     smoke_log: Option<SmokeLog>,
-    styled: Option<String>,
+    styled: Option<&'static str>,
 }
 
 impl std::fmt::Debug for LabApp {
@@ -102,9 +102,9 @@ impl LabApp {
 
     /// One frame.
     pub fn frame(&mut self, ui: &mut Ui) {
-        if self.styled.as_deref() != Some(&self.lab.theme.name) {
+        if self.styled != Some(self.lab.theme.name) {
             look::apply(&self.lab.theme, ui.ctx());
-            self.styled = Some(self.lab.theme.name.to_string());
+            self.styled = Some(self.lab.theme.name);
         }
         self.lab.hovered = std::mem::take(&mut self.lab.hovering);
         self.lab.tidy_selection();

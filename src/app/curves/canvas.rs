@@ -181,7 +181,7 @@ impl Canvas {
             self.gesture = None;
             return;
         }
-        if pressed && response.contains_pointer() && !self.panning && !ui.ctx().is_popup_open() {
+        if pressed && response.contains_pointer() && !self.panning && !ui.ctx().any_popup_open() {
             self.gesture = Some(Gesture::press(target, pointer, lab, viewport, rect, keys));
         }
         if let Some(mut gesture) = self.gesture.take() {

@@ -37,7 +37,7 @@ pub(super) fn curve(curve: &Nurbs<DVec2>, display: &CurveDisplay, theme: &Theme,
 }
 
 pub(super) fn polygon(curve: &Nurbs<DVec2>, theme: &Theme) -> Vec<Item> {
-    let stroke = Stroke::solid(theme.muted_text.with_opacity(0.55), 1.0 * theme.stroke_scale);
+    let stroke = theme.stroke(theme.polygon, 1.0);
     let path = if curve.space().is_periodic() {
         Path::polygon(curve.points(), Some(stroke), None)
     } else {
@@ -116,7 +116,7 @@ pub fn short_number(value: f64) -> String {
 }
 
 pub(super) fn comb(curve: &Nurbs<DVec2>, display: &CurveDisplay, theme: &Theme) -> Vec<Item> {
-    let (teeth, envelope) = (theme.accent.with_opacity(0.45), theme.accent);
+    let (teeth, envelope) = (theme.comb.with_opacity(0.45), theme.comb);
     let mut items = Vec::new();
     for span in curvature_comb(curve, display.comb_scale, display.comb_teeth) {
         let mut segments = Vec::with_capacity(2 * span.teeth.len());

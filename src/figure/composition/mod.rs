@@ -15,6 +15,7 @@ use crate::figure::theme::Theme;
 use crate::figure::ticks::grid_items;
 
 pub use construction::{SchemeReveal, construction_items};
+pub use curve_layers::short_number;
 
 /// Name of the entry of [`View::panels`] that says whether the grid is drawn; it is if there is no entry.
 pub const GRID: &str = "grid";
