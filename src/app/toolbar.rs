@@ -26,7 +26,7 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
             ("Hull", Command::ToggleHull, shown(|display| display.hull)),
             ("Circle", Command::ToggleCircle, shown(|display| display.osculating_circle)),
         ] {
-            ui.add_enabled_ui(display.is_some(), |ui| toggle(text, command, on, lab, ui));
+            toggle_if(display.is_some(), text, command, on, lab, ui);
         }
         ui.separator();
         push("Fit", Command::Fit, lab, ui);
@@ -45,8 +45,12 @@ fn hover_text(command: Command, ui: &Ui) -> String {
 }
 
 fn toggle(text: &str, command: Command, on: bool, lab: &mut Lab, ui: &mut Ui) {
+    toggle_if(true, text, command, on, lab, ui);
+}
+
+fn toggle_if(possible: bool, text: &str, command: Command, on: bool, lab: &mut Lab, ui: &mut Ui) {
     let hint = hover_text(command, ui);
-    if ui.add(Button::selectable(on, text)).on_hover_text(hint).clicked() {
+    if ui.add_enabled(possible, Button::selectable(on, text)).on_hover_text(hint).clicked() {
         lab.commands.push(command);
     }
 }
@@ -63,7 +67,7 @@ fn step(sign: &str, word: &str, command: Command, name: Option<String>, lab: &mu
         Some(name) => format!("{word}: {name}"),
         None => format!("Nothing to {}", word.to_lowercase()),
     };
-    let button = Button::new(RichText::new(sign).size(16.0)).frame_when_inactive(false);
+    let button = Button::new(RichText::new(sign)).frame_when_inactive(false);
     let response = ui.add_enabled(name.is_some(), button).on_hover_text(&hint).on_disabled_hover_text(&hint);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, name.is_some(), word));
     if response.clicked() {

@@ -38,7 +38,9 @@ pub fn construction_items(
     let mut items = Vec::new();
     for (level, row) in points.levels().iter().enumerate() {
         let tint = level_color(level, last, display, theme);
-        let width = if level == 0 { 2.0 } else { 1.5 } * theme.stroke_scale;
+        let (tint, width) =
+            if level == 0 { (tint.with_opacity(0.45), 3.0) } else { (tint, 1.5) };
+        let width = width * theme.stroke_scale;
         for position in 1..row.len() {
             if shown(level, position - 1) && shown(level, position) {
                 items.push(Item::Path(Path::polyline(&row[position - 1..=position], Stroke::solid(tint, width))));

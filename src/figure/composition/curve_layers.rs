@@ -31,7 +31,7 @@ pub(super) fn curve(curve: &Nurbs<DVec2>, display: &CurveDisplay, theme: &Theme,
     if display.pieces {
         let second = theme.palette[(display.color + 1) % theme.palette.len()];
         let spans = curve_span_paths(curve, tolerance).into_iter().enumerate();
-        return spans.map(|(i, segments)| item(segments, if i % 2 == 0 { main } else { second })).collect();
+        return spans.map(|(i, span)| item(span.segments, if i % 2 == 0 { main } else { second })).collect();
     }
     vec![item(curve_path(curve, tolerance), main)]
 }
@@ -74,7 +74,7 @@ pub(super) fn knots(curve: &Nurbs<DVec2>, display: &CurveDisplay, theme: &Theme)
         Some(Item::Marker(Marker {
             at,
             shape: MarkerShape::Diamond,
-            size: (6.0 + 1.2 * (knot.multiplicity.min(8) as f64 - 1.0)) * theme.stroke_scale.sqrt(),
+            size: (9.5 + 1.5 * (knot.multiplicity.min(8) as f64 - 1.0)) * theme.stroke_scale.sqrt(),
             fill: Some(main),
             stroke: Some(Stroke::solid(theme.background, 1.0)),
         }))
