@@ -10,7 +10,7 @@ use resvg::usvg::roxmltree;
 use thiserror::Error;
 
 use crate::exchange::page::{PageItem, lay_out};
-use crate::figure::font_metrics::FontFace;
+use crate::figure::font_metrics::{FontFace, runs};
 use crate::figure::formula::FormulaLayout;
 use crate::figure::picture::{Anchor, Color, Path, Picture, Segment, Stroke, Viewport};
 
@@ -264,15 +264,26 @@ fn write_item(svg: &mut String, item: &PageItem<'_>) {
                 Anchor::Middle => "middle",
                 Anchor::End => "end",
             };
-            let (x, y, size, text) = (Number(at.x), Number(at.y), Number(*size), Escaped(text));
+            let (x, y, size) = (Number(at.x), Number(at.y), Number(*size));
             let (fill, family) = (Paint("fill", *color), family(FontFace::Regular));
             put(
                 svg,
                 format_args!(
                     "<text xml:space=\"preserve\" x=\"{x}\" y=\"{y}\" font-family=\"{family}\" font-size=\"{size}\" \
-                     text-anchor=\"{anchor}\"{fill}>{text}</text>\n"
+                     text-anchor=\"{anchor}\"{fill}>"
                 ),
             );
+            for (font, run) in runs(FontFace::Regular, text) {
+                let run = Escaped(run);
+                match font {
+                    FontFace::Math => {
+                        let family = self::family(font);
+                        put(svg, format_args!("<tspan font-family=\"{family}\">{run}</tspan>"));
+                    }
+                    FontFace::Regular | FontFace::SemiBold => put(svg, format_args!("{run}")),
+                }
+            }
+            svg.push_str("</text>\n");
         }
         PageItem::Formula { at, layout, color } => write_formula(svg, *at, layout, *color),
     }
