@@ -209,9 +209,8 @@ fn entry_hint(
     if close(axis.other().of(&entry.coordinates)) {
         return format!("That is its {} coordinate.", axis.other().letter());
     }
-    if let Some(other) =
-        stepper.table().find(|other| other.tie() != entry.tie() && close(axis.of(&other.coordinates)))
-    {
+    let others = [left, right].into_iter().chain(stepper.table().filter(|other| other.tie() != entry.tie()));
+    if let Some(other) = others.into_iter().find(|other| close(axis.of(&other.coordinates))) {
         return format!("That is ${}$; ${name}$ is made of ${left_name}$ and ${right_name}$.", other.label);
     }
     format!(
