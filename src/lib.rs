@@ -2,4 +2,5 @@
 
 pub mod core;
 pub mod course;
+pub mod exchange;
 pub mod figure;
