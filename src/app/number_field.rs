@@ -8,7 +8,8 @@ use eframe::egui::{
 };
 
 use crate::app::lab::Lab;
-use crate::app::number_text::{full, parse_number, round_to_step, short};
+use crate::app::number_text::{full, round_to_step, short};
+use crate::course::number_text::parse_number;
 use crate::document::Edit;
 
 /// How dragging sideways changes the number.
@@ -26,9 +27,19 @@ pub(crate) enum Drag {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum NumberEvent {
     /// It was typed.
-    Typed(f64),
-    /// It is being dragged and now stands here.
-    Dragged(f64),
+    Typed {
+        /// The number that stood there.
+        from: f64,
+        /// The number typed.
+        to: f64,
+    },
+    /// It is being dragged.
+    Dragged {
+        /// The number at the beginning of the drag.
+        from: f64,
+        /// Where it stands now.
+        to: f64,
+    },
     /// The drag is over.
     DragEnded,
 }
@@ -115,7 +126,7 @@ impl<'a> NumberField<'a> {
     }
 
     fn read(&self, text: &str) -> Result<f64, String> {
-        let value = parse_number(text)?;
+        let value = parse_number(text).map_err(|error| error.to_string())?;
         (self.check)(value).map(|()| value)
     }
 
@@ -144,9 +155,9 @@ impl<'a> NumberField<'a> {
                 return NumberResponse { response, event };
             }
             match self.read(&current.text) {
-                Ok(value) => {
-                    if value.to_bits() != self.value.to_bits() {
-                        event = Some(NumberEvent::Typed(value));
+                Ok(to) => {
+                    if to.to_bits() != self.value.to_bits() {
+                        event = Some(NumberEvent::Typed { from: self.value, to });
                     }
                 }
                 Err(reason) => {
@@ -228,20 +239,22 @@ impl<'a> NumberField<'a> {
                 round_to_step(value, value * 0.005 * slow)
             }
         };
-        (value.is_finite() && (self.check)(value).is_ok()).then_some(NumberEvent::Dragged(value))
+        (value.is_finite() && (self.check)(value).is_ok()).then_some(NumberEvent::Dragged { from: start, to: value })
     }
 }
 
 /// Carries `event` out on the document: typing is one undo step, a whole drag is one, called `name`.
-pub(crate) fn apply(lab: &mut Lab, event: Option<NumberEvent>, name: &str, edit: impl FnOnce(f64) -> Edit) {
+///
+/// `edit` makes the edit from the number at the beginning and the new one.
+pub(crate) fn apply(lab: &mut Lab, event: Option<NumberEvent>, name: &str, edit: impl FnOnce(f64, f64) -> Edit) {
     match event {
         None => {}
-        Some(NumberEvent::Typed(value)) => {
-            lab.edit(edit(value));
+        Some(NumberEvent::Typed { from, to }) => {
+            lab.edit(edit(from, to));
         }
-        Some(NumberEvent::Dragged(value)) => {
+        Some(NumberEvent::Dragged { from, to }) => {
             lab.begin(name);
-            lab.update(edit(value));
+            lab.update(edit(from, to));
         }
         Some(NumberEvent::DragEnded) => lab.commit(),
     }

@@ -1,36 +1,6 @@
-//! Numbers as people write and read them: `1.5`, `1,5`, `1/3`, `2e-3`, and lists of them.
+//! Numbers as the panels show them, and lists of numbers as people type them.
 
-/// The number that `text` says, or why it says none.
-///
-/// A comma is a decimal sign if there is one only and no point; `a/b` is a quotient.
-pub(crate) fn parse_number(text: &str) -> Result<f64, String> {
-    let text = text.trim();
-    if text.is_empty() {
-        return Err("a number is needed".to_owned());
-    }
-    if let Some((above, below)) = text.split_once('/') {
-        let (above, below) = (parse_decimal(above.trim())?, parse_decimal(below.trim())?);
-        let quotient = above / below;
-        return if quotient.is_finite() { Ok(quotient) } else { Err(format!("\u{201c}{text}\u{201d} divides by zero")) };
-    }
-    parse_decimal(text)
-}
-
-fn parse_decimal(text: &str) -> Result<f64, String> {
-    let not_a_number = || format!("\u{201c}{text}\u{201d} is not a number");
-    let plain = text.replace('\u{2212}', "-");
-    let plain = match plain.matches(',').count() {
-        0 => plain,
-        1 if !plain.contains('.') => plain.replace(',', "."),
-        _ => return Err(format!("\u{201c}{text}\u{201d} has more than one decimal sign")),
-    };
-    // The words "inf" and "nan" would parse, too.
-    if plain.chars().any(|letter| letter.is_alphabetic() && !matches!(letter, 'e' | 'E')) {
-        return Err(not_a_number());
-    }
-    let value: f64 = plain.parse().map_err(|_| not_a_number())?;
-    if value.is_finite() { Ok(value) } else { Err(format!("\u{201c}{text}\u{201d} is too large")) }
-}
+use crate::course::number_text::parse_number;
 
 /// The numbers of a list, separated by spaces, semicolons or commas.
 ///
@@ -40,7 +10,7 @@ pub(crate) fn parse_list(text: &str) -> Result<Vec<f64>, String> {
     let text = text.trim().trim_start_matches(['[', '(']).trim_end_matches([']', ')']).trim();
     if text.contains(';') {
         let entries = text.split(';').map(str::trim).filter(|entry| !entry.is_empty());
-        return entries.flat_map(str::split_whitespace).map(parse_number).collect();
+        return entries.flat_map(str::split_whitespace).map(number).collect();
     }
     let words: Vec<&str> = text.split_whitespace().collect();
     let separating = |word: &str| word.starts_with(',') || word.ends_with(',');
@@ -49,14 +19,18 @@ pub(crate) fn parse_list(text: &str) -> Result<Vec<f64>, String> {
         if text.contains(',') && text.contains('.') {
             return Err("both point and comma as decimal sign: separate the numbers with semicolons".to_owned());
         }
-        return words.into_iter().map(parse_number).collect();
+        return words.into_iter().map(number).collect();
     }
     if words.len() > 1
         && let Some(word) = words.iter().find(|word| word.trim_matches(',').contains(','))
     {
         return Err(format!("\u{201c}{word}\u{201d} can be read in two ways: separate the numbers with semicolons"));
     }
-    text.split([',', ' ', '\t', '\n', '\r']).filter(|word| !word.is_empty()).map(parse_number).collect()
+    text.split([',', ' ', '\t', '\n', '\r']).filter(|word| !word.is_empty()).map(number).collect()
+}
+
+fn number(word: &str) -> Result<f64, String> {
+    parse_number(word).map_err(|error| error.to_string())
 }
 
 /// `value` with about five digits: what a table shows.
@@ -114,18 +88,6 @@ pub(crate) fn round_to_step(value: f64, step: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn numbers_are_read_as_people_write_them() {
-        for (text, value) in
-            [("1,5", 1.5), ("1.5", 1.5), (" 1/4 ", 0.25), ("2e-3", 2e-3), ("\u{2212}0,5", -0.5), ("1,5/2", 0.75)]
-        {
-            assert_eq!(parse_number(text), Ok(value), "{text}");
-        }
-        for text in ["", "1,2,3", "1.000,5", "nan", "inf", "1e999", "1/0", "two", "1/2/3", "--1"] {
-            assert!(parse_number(text).is_err(), "{text} gives {:?}", parse_number(text));
-        }
-    }
 
     #[test]
     fn lists_are_read_with_every_separator() {

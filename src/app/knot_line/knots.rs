@@ -346,7 +346,7 @@ fn menu(lab: &mut Lab, scene: &Scene, stack: &Stack, response: &Response, inside
         ui.horizontal(|ui| {
             ui.label("Move to");
             let field = NumberField::new("New value of the knot", stack.value).width(90.0).show(ui, "value of knot");
-            if let Some(NumberEvent::Typed(to)) = field.event {
+            if let Some(NumberEvent::Typed { to, .. }) = field.event {
                 lab.edit(Edit::MoveDistinctKnot { object, at: stack.value, to });
                 lab.selection.knot = Some(to);
                 ui.close();

@@ -117,7 +117,7 @@ fn header(lab: &mut Lab, ui: &mut Ui, object: ObjectId, curve: &Nurbs<DVec2>, t:
             .drag(crate::app::number_field::Drag::PerPixel((right - left) / 500.0))
             .show(ui, "parameter");
         field.response.on_hover_text("The parameter: drag, or click to type");
-        if let Some(NumberEvent::Typed(value) | NumberEvent::Dragged(value)) = field.event {
+        if let Some(NumberEvent::Typed { to: value, .. } | NumberEvent::Dragged { to: value, .. }) = field.event {
             if value < left || value > right {
                 lab.shape_note = Some(format!("{} lies outside [{}, {}]", short(value), short(left), short(right)));
             }

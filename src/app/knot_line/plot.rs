@@ -239,7 +239,7 @@ fn menu(lab: &mut Lab, ui: &Ui, scene: &Scene, response: &Response) {
         ui.horizontal(|ui| {
             ui.label("Insert at");
             let field = NumberField::new("New knot", at).show(ui, "new knot");
-            if let Some(NumberEvent::Typed(value)) = field.event {
+            if let Some(NumberEvent::Typed { to: value, .. }) = field.event {
                 insert(lab, scene, value);
                 ui.close();
             }
