@@ -1,5 +1,9 @@
 //! Spline Lab: the mathematics of B-splines, and what a laboratory for them needs.
 
+#[cfg(feature = "app")]
+pub mod app;
 pub mod core;
 pub mod course;
+pub mod document;
+pub mod exchange;
 pub mod figure;

@@ -1,5 +1,7 @@
 //! What is drawn, not by whom.
 
 pub mod curve;
+pub mod font_metrics;
+pub mod formula;
 pub mod picture;
 pub mod theme;

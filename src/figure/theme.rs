@@ -63,7 +63,7 @@ impl Theme {
             comb: Color::hex(0x7E_55_A8),
             selection: Color::hex(0xC2_41_0C),
             accent: Color::hex(0xB0_1E_5B),
-            warning: Color::hex(0x9A_67_00),
+            warning: Color::hex(0x8F_5F_00),
             error: Color::hex(0xB4_23_18),
             palette: [
                 Color::hex(0x00_6B_AE),
