@@ -1,4 +1,5 @@
 //! Spline Lab: the mathematics of B-splines, and what a laboratory for them needs.
 
 pub mod core;
+pub mod document;
 pub mod figure;
