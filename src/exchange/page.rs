@@ -62,8 +62,11 @@ fn path_on_page<'a>(path: &Path, view: &Viewport) -> Option<PageItem<'a>> {
     });
     let starts = matches!(segments.first(), Some(Segment::Move(_)));
     let stroke = path.stroke.as_ref().and_then(visible);
-    (can_be_shown && starts && (stroke.is_some() || path.fill.is_some()))
-        .then(|| PageItem::Path(Path { segments, stroke, fill: path.fill }))
+    (can_be_shown && starts && (stroke.is_some() || path.fill.is_some())).then_some(PageItem::Path(Path {
+        segments,
+        stroke,
+        fill: path.fill,
+    }))
 }
 
 /// A line without width is not drawn; dashes that make no sense give a solid line.
