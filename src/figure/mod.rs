@@ -1,5 +1,6 @@
 //! What is drawn, not by whom.
 
+pub mod chart;
 pub mod comb;
 pub mod curve;
 pub mod font_metrics;
