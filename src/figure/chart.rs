@@ -4,6 +4,7 @@
 
 use glam::DVec2;
 
+use crate::figure::clip::{polyline_in_box, segment_in_box};
 use crate::figure::font_metrics::{FontFace, text_width};
 use crate::figure::formula;
 use crate::figure::picture::{
@@ -138,12 +139,12 @@ impl Chart {
         texts.push(text(head, &self.title, title_size, theme.text, Anchor::Middle));
         texts.retain(|item| !matches!(item, Item::Label(label) if label.text.is_empty()));
         picture.push_layer("text", texts);
-        picture.push_layer("legend", self.legend(high, theme));
+        picture.push_layer("legend", self.legend(&plot, theme));
         picture
     }
 
-    /// Names of the series in a box at the upper right; none for fewer than two names.
-    fn legend(&self, corner: DVec2, theme: &Theme) -> Vec<Item> {
+    /// Names of the series in a box, in the corner where it hides least; none for fewer than two names.
+    fn legend(&self, plot: &Plot, theme: &Theme) -> Vec<Item> {
         let named: Vec<&Series> = self.series.iter().filter(|series| !series.name.is_empty()).collect();
         if named.len() < 2 {
             return Vec::new();
@@ -152,8 +153,13 @@ impl Chart {
         let (line, sample) = (size * 1.5, 2.2 * size);
         let widest = named.iter().map(|series| label_width(&series.name, size)).fold(0.0, f64::max);
         let extent = DVec2::new(widest + sample + 3.0 * GAP, line * named.len() as f64 + GAP);
-        let high = corner - DVec2::splat(GAP);
-        let low = high - extent;
+        let (first, last) = (plot.low + GAP, plot.high - GAP - extent);
+        let places = [last, DVec2::new(first.x, last.y), DVec2::new(last.x, first.y), first];
+        let hidden = |low: &DVec2| {
+            self.series.iter().map(|series| plot.hidden(series, *low, *low + extent)).sum::<usize>()
+        };
+        let low = places.into_iter().min_by_key(hidden).unwrap_or(last);
+        let high = low + extent;
         let corners = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
         let ground = Some(theme.panel.with_opacity(0.9));
         let mut items = vec![Item::Path(Path::polygon(&corners, None, ground))];
@@ -295,18 +301,31 @@ impl Plot {
         below.chain(beside).collect()
     }
 
-    fn series(&self, series: &Series, theme: &Theme) -> Vec<Item> {
-        let places: Vec<Option<DVec2>> = series
-            .points
-            .iter()
+    /// Places on the page; `None` for points without one.
+    fn places(&self, series: &Series) -> Vec<Option<DVec2>> {
+        let points = series.points.iter();
+        points
             .map(|point| Some(self.page(placed(self.x.scale, point.x)?, placed(self.y.scale, point.y)?)))
             .map(|place| place.filter(|place| place.is_finite()))
-            .collect();
+            .collect()
+    }
+
+    /// How many points and connections of a series a box would hide.
+    fn hidden(&self, series: &Series, low: DVec2, high: DVec2) -> usize {
+        let places = self.places(series);
+        let is_inside = |a: DVec2, b: DVec2| segment_in_box(a, b, low, high).is_some();
+        let points = places.iter().flatten().filter(|&&place| is_inside(place, place)).count();
+        let is_hidden = |ends: &&[Option<DVec2>]| matches!(ends, [Some(a), Some(b)] if is_inside(*a, *b));
+        points + places.windows(2).filter(is_hidden).count()
+    }
+
+    fn series(&self, series: &Series, theme: &Theme) -> Vec<Item> {
+        let places = self.places(series);
         let mut items = Vec::new();
         if let Some(stroke) = series.stroke(theme) {
             for part in places.split(Option::is_none) {
                 let line: Vec<DVec2> = part.iter().flatten().copied().collect();
-                let inside = clipped(&line, self.low, self.high);
+                let inside = polyline_in_box(&line, self.low, self.high);
                 items.extend(inside.iter().map(|part| Item::Path(Path::polyline(part, stroke.clone()))));
             }
         }
@@ -319,44 +338,6 @@ impl Plot {
         }
         items
     }
-}
-
-/// The parts of a polyline inside a box.
-fn clipped(line: &[DVec2], low: DVec2, high: DVec2) -> Vec<Vec<DVec2>> {
-    let mut parts: Vec<Vec<DVec2>> = Vec::new();
-    let mut continues = false;
-    for ends in line.windows(2) {
-        let Some((start, end)) = clipped_segment(ends[0], ends[1], low, high) else {
-            continues = false;
-            continue;
-        };
-        match parts.last_mut() {
-            Some(part) if continues && start == ends[0] => part.push(end),
-            _ => parts.push(vec![start, end]),
-        }
-        continues = end == ends[1];
-    }
-    parts
-}
-
-/// The part of a segment inside a box, by the method of Liang and Barsky.
-fn clipped_segment(a: DVec2, b: DVec2, low: DVec2, high: DVec2) -> Option<(DVec2, DVec2)> {
-    let along = b - a;
-    let (mut from, mut to) = (0.0f64, 1.0f64);
-    for (speed, room) in
-        [(-along.x, a.x - low.x), (along.x, high.x - a.x), (-along.y, a.y - low.y), (along.y, high.y - a.y)]
-    {
-        if speed > 0.0 {
-            to = to.min(room / speed);
-        } else if speed < 0.0 {
-            from = from.max(room / speed);
-        } else if room < 0.0 {
-            return None;
-        }
-    }
-    let start = if from > 0.0 { a + along * from } else { a };
-    let end = if to < 1.0 { a + along * to } else { b };
-    (from <= to).then_some((start, end))
 }
 
 /// The formula between two `$`, if there is one.
@@ -424,24 +405,6 @@ mod tests {
         assert_eq!(lines_of(&picture, "series: error"), [7], "from 2.5 over 3, 4, 5, 6, 7 to 7.5");
         let marks = picture.layers.iter().flat_map(|layer| &layer.items);
         assert_eq!(marks.filter(|item| matches!(item, Item::Marker(_))).count(), 5, "marks at 3, 4, 5, 6, 7");
-    }
-
-    #[test]
-    fn clipping_keeps_what_is_inside() {
-        let (low, high) = (DVec2::ZERO, DVec2::ONE);
-        let line = [
-            DVec2::new(-1.0, 0.5),
-            DVec2::new(0.5, 0.5),
-            DVec2::new(0.5, 2.0),
-            DVec2::new(0.75, 2.0),
-            DVec2::new(0.75, 0.0),
-        ];
-        let parts = clipped(&line, low, high);
-        let expected = vec![
-            vec![DVec2::new(0.0, 0.5), DVec2::new(0.5, 0.5), DVec2::new(0.5, 1.0)],
-            vec![DVec2::new(0.75, 1.0), DVec2::new(0.75, 0.0)],
-        ];
-        assert_eq!(parts, expected, "in at the left, out and in again above");
     }
 
     #[test]

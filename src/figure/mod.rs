@@ -1,6 +1,7 @@
 //! What is drawn, not by whom.
 
 pub mod chart;
+pub mod clip;
 pub mod comb;
 pub mod curve;
 pub mod font_metrics;
