@@ -2,5 +2,6 @@
 
 pub mod core;
 pub mod course;
+pub mod document;
 pub mod exchange;
 pub mod figure;

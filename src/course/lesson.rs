@@ -169,6 +169,17 @@ mod tests {
     }
 
     #[test]
+    fn every_formula_of_every_lesson_can_be_typeset() {
+        for lesson in lessons() {
+            for source in lesson.formulas() {
+                if let Err(error) = crate::figure::formula::layout(&source, 12.0) {
+                    panic!("{}: {source}: {error}", lesson.section);
+                }
+            }
+        }
+    }
+
+    #[test]
     fn file_names_begin_with_the_section_and_follow_the_course() {
         let place = |section: &str| -> Vec<u32> {
             section.split('.').map(|number| number.parse().expect("a section is made of numbers")).collect()
