@@ -260,9 +260,13 @@ mod tests {
             Nurbs::new(space, points, vec![1.0, 1e-8, 3.0, 2.0]).unwrap()
         };
         let weighted = graph(Some(vec![1.0, 2.0, 0.5, 3.0, 1.0, 1.5, 1.0]));
-        for (curve, t) in
-            [(&graph(None), 5.0), (&weighted, 4.0), (&weighted, 8.0), (&tiny, 1e-9), (&closed(12, vec![1.0; 5]), 0.5)]
-        {
+        for (curve, t) in [
+            (&graph(None), 5.0),
+            (&weighted, 4.0),
+            (&weighted, 8.0),
+            (&tiny, 1e-9),
+            (&closed(12, vec![1.0; 5]), 0.5),
+        ] {
             let stepper = de_boor_stepper(curve, t).unwrap();
             let labels = stepper.table().map(|entry| &entry.label);
             for source in stepper.frames().iter().map(|frame| &frame.formula).chain(labels) {
