@@ -84,7 +84,9 @@ struct LessonFile {
 pub fn lessons() -> Vec<Lesson> {
     static LESSONS: OnceLock<Vec<Lesson>> = OnceLock::new();
     // A test loads every file, so that none is missing here.
-    LESSONS.get_or_init(|| FILES.iter().filter_map(|(_, text)| Lesson::from_json(text).ok()).collect()).clone()
+    LESSONS
+        .get_or_init(|| FILES.iter().filter_map(|(_, text)| Lesson::from_json(text).ok()).collect())
+        .clone()
 }
 
 impl Lesson {
@@ -130,10 +132,11 @@ impl Lesson {
 
     /// All formulas: the displayed one and those between dollar signs.
     pub fn formulas(&self) -> Vec<String> {
-        let inline = self.texts().filter_map(|text| text_parts(text).ok()).flatten().filter_map(|part| match part {
-            TextPart::Formula(formula) => Some(formula),
-            TextPart::Words(_) => None,
-        });
+        let inline =
+            self.texts().filter_map(|text| text_parts(text).ok()).flatten().filter_map(|part| match part {
+                TextPart::Formula(formula) => Some(formula),
+                TextPart::Words(_) => None,
+            });
         std::iter::once(self.display_formula.clone()).chain(inline).collect()
     }
 }
@@ -169,13 +172,28 @@ mod tests {
     }
 
     #[test]
+    fn every_formula_of_every_lesson_can_be_typeset() {
+        for lesson in lessons() {
+            for source in lesson.formulas() {
+                if let Err(error) = crate::figure::formula::layout(&source, 12.0) {
+                    panic!("{}: {source}: {error}", lesson.section);
+                }
+            }
+        }
+    }
+
+    #[test]
     fn file_names_begin_with_the_section_and_follow_the_course() {
         let place = |section: &str| -> Vec<u32> {
             section.split('.').map(|number| number.parse().expect("a section is made of numbers")).collect()
         };
         let mut last = Vec::new();
         for ((name, _), lesson) in FILES.iter().zip(lessons()) {
-            assert!(name.starts_with(&format!("{}-", lesson.section)), "{name} is section {}", lesson.section);
+            assert!(
+                name.starts_with(&format!("{}-", lesson.section)),
+                "{name} is section {}",
+                lesson.section
+            );
             let this = place(&lesson.section);
             assert!(this > last, "{name} stands after a later section");
             last = this;
@@ -212,8 +230,13 @@ mod tests {
             [0.0, 0.0, 0.0, 1.0, 4.0, 6.0, 7.0, 8.0, 8.0, 8.0, 9.0],
             "the knots of example 4.5-a"
         );
-        for (k, (point, average)) in curve.points().iter().zip(curve.space().greville_abscissae()).enumerate() {
-            assert!((point.x - average).abs() < 1e-14, "control point {k} stands at {} not {average}", point.x);
+        for (k, (point, average)) in curve.points().iter().zip(curve.space().greville_abscissae()).enumerate()
+        {
+            assert!(
+                (point.x - average).abs() < 1e-14,
+                "control point {k} stands at {} not {average}",
+                point.x
+            );
         }
         assert_eq!(lesson.view.parameters.get(&object), Some(&5.0), "t = 5 is set");
         let right = lesson.question.right_number(&lesson.document).unwrap();

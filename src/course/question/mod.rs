@@ -178,7 +178,8 @@ mod tests {
 
     fn graph(knots: &[f64], heights: &[f64]) -> Nurbs<DVec2> {
         let space = SplineSpace::new(3, knots.to_vec()).unwrap();
-        let points = space.greville_abscissae().into_iter().zip(heights.iter().copied()).map(DVec2::from).collect();
+        let points =
+            space.greville_abscissae().into_iter().zip(heights.iter().copied()).map(DVec2::from).collect();
         Nurbs::polynomial(space, points).unwrap()
     }
 
@@ -217,7 +218,10 @@ mod tests {
         for (level, row) in rows.iter().enumerate() {
             for (j, expected) in row.iter().enumerate() {
                 let found = entry(object, level, 1 + level + j).right_number(&document).unwrap();
-                assert!((found - expected).abs() < 1e-14, "level {level}, entry {j}: {found} instead of {expected}");
+                assert!(
+                    (found - expected).abs() < 1e-14,
+                    "level {level}, entry {j}: {found} instead of {expected}"
+                );
             }
         }
         for (quantity, expected) in [
@@ -273,7 +277,11 @@ mod tests {
         let (mut document, object) = document();
         let mut heights = HEIGHTS;
         heights[4] = 7.0;
-        let edit = Edit::ReplaceCurve { object: ObjectId(object), curve: graph(&KNOTS, &heights), label: "Lift".into() };
+        let edit = Edit::ReplaceCurve {
+            object: ObjectId(object),
+            curve: graph(&KNOTS, &heights),
+            label: "Lift".into(),
+        };
         document.apply(&edit).unwrap();
         // p_4^1 = 3/4*4 + 1/4*7, p_4^2 = 2/3*1 + 1/3*p_4^1
         let expected = 2.0 / 3.0 + 4.75 / 3.0;
@@ -333,8 +341,11 @@ mod tests {
         let (mut document, first) = document();
         let mut heights = HEIGHTS;
         heights[2] += 1.0;
-        let edit =
-            Edit::AddCurve { name: "Other".into(), curve: graph(&KNOTS, &heights), display: Default::default() };
+        let edit = Edit::AddCurve {
+            name: "Other".into(),
+            curve: graph(&KNOTS, &heights),
+            display: Default::default(),
+        };
         let second = document.apply(&edit).unwrap().created[0].0;
         let follow = |reference, tolerance| {
             let goal = Goal::Follow { reference, tolerance };
@@ -342,7 +353,10 @@ mod tests {
         };
         assert!(follow(first, 1e-12).correct, "itself");
         let other = follow(second, 0.01);
-        assert!(!other.correct && other.measured.unwrap() < 1.0 / polygon_size(&graph(&KNOTS, &heights)), "{other:?}");
+        assert!(
+            !other.correct && other.measured.unwrap() < 1.0 / polygon_size(&graph(&KNOTS, &heights)),
+            "{other:?}"
+        );
         assert!(!follow(99, 0.01).correct, "a curve that is not there");
     }
 

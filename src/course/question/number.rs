@@ -96,8 +96,11 @@ impl Quantity {
             Self::Entry { parameter, level, index, axis } => {
                 find_entry(curve, parameter, level, index).map(|(_, entry)| axis.of(&entry.coordinates))
             }
-            Self::Share { parameter, level, index } => find_entry(curve, parameter, level, index)
-                .and_then(|(_, entry)| entry.share.ok_or_else(|| "A control point has no factor.".to_owned())),
+            Self::Share { parameter, level, index } => {
+                find_entry(curve, parameter, level, index).and_then(|(_, entry)| {
+                    entry.share.ok_or_else(|| "A control point has no factor.".to_owned())
+                })
+            }
             Self::Point { parameter, axis } => {
                 curve.evaluate(parameter).map(|point| axis.of(&point.to_array())).map_err(told)
             }
