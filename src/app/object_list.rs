@@ -52,7 +52,9 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
         },
     );
     ui.data_mut(|data| match renaming {
-        Some(renaming) => data.insert_temp(id, renaming),
+        Some(renaming) => {
+            data.insert_temp(id, renaming);
+        }
         None => data.remove::<Renaming>(id),
     });
 }
@@ -143,7 +145,7 @@ fn menu(lab: &mut Lab, response: &Response, objects: &[Arc<Object>], index: usiz
     let object = &objects[index];
     let id = object.id;
     response.context_menu(|ui| {
-        let mut item = |ui: &mut Ui, text: &str, enabled: bool| {
+        let item = |ui: &mut Ui, text: &str, enabled: bool| {
             let clicked = ui.add_enabled(enabled, Button::new(text)).clicked();
             if clicked {
                 ui.close();

@@ -298,3 +298,52 @@ fn cell(
         painter.text(pos2(middle, y), Align2::CENTER_TOP, text, FontId::proportional(11.0 * scale), ink);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::test_bench;
+    use egui_kittest::kittest::Queryable as _;
+
+    const SIZE: (f32, f32) = (290.0, 640.0);
+
+    #[test]
+    fn one_step_on_shows_the_next_frame_and_back_the_one_before() {
+        let mut window = test_bench::window(test_bench::lab(), SIZE, show);
+        window.get_by_label("One step on").click();
+        window.run();
+        window.get_by_label("One step on").click();
+        window.run();
+        assert_eq!(window.state().stepper.frame, 2, "two steps on");
+        window.get_by_label("One step back").click();
+        window.run();
+        assert_eq!(window.state().stepper.frame, 1, "one back");
+    }
+
+    #[test]
+    fn playing_goes_on_by_itself_and_ends() {
+        let mut window = test_bench::window(test_bench::lab(), SIZE, show);
+        window.get_by_label("Play").click();
+        window.step();
+        for _ in 0..2000 {
+            if !window.state().stepper.playing && window.state().stepper.frame > 0 {
+                break;
+            }
+            window.step();
+        }
+        let last = window.state().scheme().unwrap().frames().len() - 1;
+        assert_eq!(window.state().stepper.frame, last, "the last frame");
+        assert!(!window.state().stepper.playing, "it stops there");
+    }
+
+    #[test]
+    fn an_entry_under_the_pointer_lights_up_everywhere() {
+        let mut window = test_bench::window(test_bench::lab(), SIZE, show);
+        let object = window.state().selection.object.unwrap();
+        let entry = window.state().scheme().unwrap().levels()[1][2].clone();
+        let cell = window.get_by_label_contains(&format!("{} = ", entry.plain_label)).rect().center();
+        window.hover_at(cell);
+        window.run();
+        assert_eq!(window.state().hovered, Hovered::Entry(object, 1, 2), "entry 2 of level 1");
+    }
+}

@@ -96,6 +96,7 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, id: Id, scene: &Scene) {
         paint(lab, ui, scene, stack, x, ghost, response.as_ref(), &mut label_end);
         if let Some(response) = response {
             react(lab, ui, scene, stack, &response, &mut drag);
+            drag_is_shown |= drag.is_some_and(|drag| drag.handle == response.id);
         }
     }
     if let Some(KnotDrag { handle, now, .. }) = drag
@@ -107,7 +108,9 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, id: Id, scene: &Scene) {
         follow(lab, ui, &response, &mut drag);
     }
     ui.data_mut(|data| match drag {
-        Some(drag) => data.insert_temp(drag_id(id), drag),
+        Some(drag) => {
+            data.insert_temp(drag_id(id), drag);
+        }
         None => data.remove::<KnotDrag>(drag_id(id)),
     });
 }
@@ -154,7 +157,8 @@ fn marker_place(scene: &Scene, stack: &Stack, x: f32, copy: usize) -> Pos2 {
 /// `C²` and so on.
 fn continuity(degree: usize, multiplicity: usize) -> String {
     let order = degree.saturating_sub(multiplicity);
-    let raised = order.to_string().chars().filter_map(|digit| {
+    let digits = order.to_string();
+    let raised = digits.chars().filter_map(|digit| {
         let index = digit.to_digit(10)? as usize;
         ['\u{2070}', '\u{b9}', '\u{b2}', '\u{b3}', '\u{2074}', '\u{2075}', '\u{2076}', '\u{2077}', '\u{2078}', '\u{2079}']
             .get(index)
