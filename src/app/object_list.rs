@@ -81,7 +81,7 @@ fn show_row(lab: &mut Lab, ui: &mut Ui, objects: &[Arc<Object>], index: usize, r
             text = text.weak();
         }
         let button = Button::selectable(selected, text).truncate().sense(Sense::click());
-        let response = ui.add_sized(size, button);
+        let response = ui.allocate_ui_with_layout(size, Layout::top_down_justified(Align::LEFT), |ui| ui.add(button)).inner;
         if response.clicked() && !selected {
             lab.selection = Selection { object: Some(id), ..Selection::default() };
         }

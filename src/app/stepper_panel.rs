@@ -151,7 +151,7 @@ impl Grid {
         let lines = texts(&stepper.levels()[0][0]).len();
         let scale = lab.theme.text_scale as f32;
         let pitch = ((room - 4.0) / count as f32).clamp(58.0 * scale, 96.0 * scale);
-        Self { cell: vec2(pitch - 10.0, (17.0 + 13.0 * lines as f32) * scale), pitch, lines }
+        Self { cell: vec2(pitch - 10.0, (21.0 + 13.0 * lines as f32) * scale), pitch, lines }
     }
 
     fn rect(&self, origin: eframe::egui::Pos2, level: usize, position: usize) -> Rect {
@@ -235,9 +235,11 @@ fn arrows(
         let from = pos2(parent.center().x - sign * 0.15 * grid.cell.x, parent.bottom() + 1.0);
         let to = pos2(child.center().x + sign * 0.22 * grid.cell.x, child.top() - 1.0);
         ui.painter().line_segment([from, to], Stroke::new(if told { 1.6 } else { 1.0 }, ink.gamma_multiply(0.8)));
-        let anchor = if side == 0 { Align2::RIGHT_CENTER } else { Align2::LEFT_CENTER };
-        let at = from.lerp(to, 0.55) + vec2(sign * 4.0, 2.0);
-        ui.painter().text(at, anchor, compact(weight), font.clone(), ink);
+        // The number stands on its line, the line behind it wiped out: beside it there is no room.
+        let galley = ui.painter().layout_no_wrap(compact(weight), font.clone(), ink);
+        let place = Align2::CENTER_CENTER.anchor_size(from.lerp(to, 0.5), galley.size());
+        ui.painter().rect_filled(place.shrink2(vec2(0.0, 1.0)), 2.0, ui.visuals().panel_fill);
+        ui.painter().galley(place.min, galley, ink);
     }
 }
 

@@ -33,7 +33,7 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, subject: &Subject) {
         trial.apply(&edit(text)?).map(|_| ()).map_err(|error| error.to_string())
     };
     let rows = (text.len() / 34 + 1).clamp(2, 6);
-    let taken = TextField::new("Knots", &text).rows(rows).hint("0 0 0 1 2 3 3 3").show(ui, ("knots", object), check);
+    let taken = TextField::new("Knot list", &text).rows(rows).hint("0 0 0 1 2 3 3 3").show(ui, ("knots", object), check);
     if let Some(Ok(edit)) = taken.as_deref().map(edit) {
         lab.edit(edit);
     }

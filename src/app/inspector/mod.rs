@@ -86,11 +86,11 @@ mod tests {
     fn knots_that_are_no_sequence_are_refused_with_the_reason() {
         let mut window = test_bench::window(test_bench::lab(), SIZE, show);
         let before = test_bench::knots(window.state());
-        window.get_by_label("Knots").focus();
+        window.get_by_label("Knot list").focus();
         window.run();
         window.key_press_modifiers(eframe::egui::Modifiers::COMMAND, eframe::egui::Key::A);
         window.run();
-        window.get_by_label("Knots").type_text("-1 0 0 0 2 1 3 4 4 4 5");
+        window.get_by_label("Knot list").type_text("-1 0 0 0 2 1 3 4 4 4 5");
         window.run();
         window.key_press(eframe::egui::Key::Enter);
         window.run();
@@ -101,11 +101,11 @@ mod tests {
     #[test]
     fn typed_knots_are_applied_with_enter() {
         let mut window = test_bench::window(test_bench::lab(), SIZE, show);
-        window.get_by_label("Knots").focus();
+        window.get_by_label("Knot list").focus();
         window.run();
         window.key_press_modifiers(eframe::egui::Modifiers::COMMAND, eframe::egui::Key::A);
         window.run();
-        window.get_by_label("Knots").type_text("-1; 0; 0; 0; 0,5; 2; 3; 4; 4; 4; 5");
+        window.get_by_label("Knot list").type_text("-1; 0; 0; 0; 0,5; 2; 3; 4; 4; 4; 5");
         window.run();
         window.key_press(eframe::egui::Key::Enter);
         window.run();

@@ -221,7 +221,7 @@ fn paint(
     let font = FontId::proportional(10.0 * theme.text_scale as f32);
     let roomy = response.is_some_and(Response::hovered) || x - *label_end > 34.0;
     if inside && !ghost && roomy {
-        text = format!("{text} {}", continuity(space.degree(), stack.multiplicity));
+        text = format!("{text} \u{b7} {}", continuity(space.degree(), stack.multiplicity));
     }
     let muted = if selected || lit { ink } else { color32(theme.muted_text) };
     let galley = painter.layout_no_wrap(text, font, if ghost { muted.gamma_multiply(0.5) } else { muted });
