@@ -11,7 +11,7 @@ use crate::app::formula_view;
 use crate::app::icon::{self, Icon};
 use crate::app::lab::{Hovered, Lab};
 use crate::app::number_field::{Drag, NumberEvent, NumberField};
-use crate::app::number_text::compact;
+use crate::app::number_text::{compact, with_digits};
 use crate::app::painter::color32;
 use crate::course::Stepper;
 use crate::course::stepper::Entry;
@@ -236,7 +236,8 @@ fn arrows(
         let to = pos2(child.center().x + sign * 0.22 * grid.cell.x, child.top() - 1.0);
         ui.painter().line_segment([from, to], Stroke::new(if told { 1.6 } else { 1.0 }, ink.gamma_multiply(0.8)));
         // The number stands on its line, the line behind it wiped out: beside it there is no room.
-        let galley = ui.painter().layout_no_wrap(compact(weight), font.clone(), ink);
+        let text = if grid.pitch < 64.0 { with_digits(weight, 2) } else { compact(weight) };
+        let galley = ui.painter().layout_no_wrap(text, font.clone(), ink);
         let place = Align2::CENTER_CENTER.anchor_size(from.lerp(to, 0.5), galley.size());
         ui.painter().rect_filled(place.shrink2(vec2(0.0, 1.0)), 2.0, ui.visuals().panel_fill);
         ui.painter().galley(place.min, galley, ink);

@@ -21,7 +21,7 @@ use crate::document::{Edit, ObjectId};
 const SNAP: f32 = 6.0;
 
 /// Knots that stand closer than this, in points, are ticks without a handle.
-const CLOSEST_HANDLES: f32 = 3.0;
+const CLOSEST_HANDLES: f32 = 6.0;
 
 /// Equal knots on the axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,6 +67,7 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, id: Id, scene: &Scene) {
         drag = None;
     }
     let mut last_x = f32::NEG_INFINITY;
+    let mut last_tick = f32::NEG_INFINITY;
     let mut label_end = f32::NEG_INFINITY;
     let mut drag_is_shown = false;
     let stacks = visible_stacks(scene);
@@ -77,7 +78,8 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, id: Id, scene: &Scene) {
         }
         let held = drag.is_some_and(|drag| (stack.value - drag.now).abs() <= 0.0) && !drag_is_shown;
         if x - last_x < CLOSEST_HANDLES && !held {
-            if x - last_x >= 1.0 {
+            if x - last_tick >= 1.5 {
+                last_tick = x;
                 ui.painter().vline(x, scene.plot.bottom()..=scene.plot.bottom() + 6.0, tick(lab));
             }
             continue;

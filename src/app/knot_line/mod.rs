@@ -211,9 +211,11 @@ mod tests {
         let one = window.get_by_label("Knot 1").rect().center();
         let two = window.get_by_label("Knot 2").rect().center();
         let at = one.lerp(two, 0.5);
+        window.hover_at(at);
+        window.step();
         for _ in 0..2 {
+            // A step is a quarter of a second: press and release in one, or the clicks are too far apart.
             window.drag_at(at);
-            window.step();
             window.drop_at(at);
             window.step();
         }
