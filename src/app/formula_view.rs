@@ -30,7 +30,7 @@ impl cache::ComputerMut<(&str, u32, bool), Cached> for Typesetter {
 type FormulaCache = cache::FrameCache<Cached, Typesetter>;
 
 fn typeset(ui: &Ui, source: &str, size: f32, inline: bool) -> Cached {
-    ui.memory_mut(|memory| memory.caches.cache::<FormulaCache>().get((source, size.to_bits(), inline)))
+    ui.memory_mut(|memory| memory.caches.cache::<FormulaCache>().get((source, size.to_bits(), inline)).clone())
 }
 
 /// Paints a typeset formula; `origin` is the left end of its base line.

@@ -76,13 +76,13 @@ pub(crate) fn paint(painter: &Painter, icon: Icon, rect: Rect, ink: Color32) {
             painter.add(Shape::line(vec![at(0.05, 0.55), at(0.4, 0.9), at(0.95, 0.1)], Stroke::new(1.8, ink)));
         }
         Icon::Shown | Icon::Hidden => {
-            let lid = |sign: f32| (0..=12).map(|i| {
-                let share = i as f32 / 12.0;
-                at(share, 0.5 + sign * 0.36 * (share * TAU * 0.5).sin())
-            });
-            painter.add(Shape::line(lid(1.0).collect(), pen));
+            let lid = |sign: f32| -> Vec<_> {
+                let shares = (0..=12).map(|i| i as f32 / 12.0);
+                shares.map(|share| at(share, 0.5 + sign * 0.36 * (share * TAU * 0.5).sin())).collect()
+            };
+            painter.add(Shape::line(lid(1.0), pen));
             if icon == Icon::Shown {
-                painter.add(Shape::line(lid(-1.0).collect(), pen));
+                painter.add(Shape::line(lid(-1.0), pen));
                 painter.circle_filled(rect.center(), rect.width() * 0.17, ink);
             } else {
                 for share in [0.2, 0.5, 0.8] {

@@ -119,7 +119,9 @@ impl<'a> NumberField<'a> {
             self.show_resting(ui, id, rect, &mut draft)
         };
         ui.data_mut(|data| match draft {
-            Some(draft) => data.insert_temp(id, draft),
+            Some(draft) => {
+                data.insert_temp(id, draft);
+            }
             None => data.remove::<Draft>(id),
         });
         result

@@ -44,7 +44,7 @@ pub(crate) fn compact(value: f64) -> String {
 }
 
 /// `value` with `digits` significant digits, zeros at the end left out, minus sign as in print.
-fn with_digits(value: f64, digits: i32) -> String {
+pub(crate) fn with_digits(value: f64, digits: i32) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }

@@ -52,7 +52,9 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
         },
     );
     ui.data_mut(|data| match renaming {
-        Some(renaming) => data.insert_temp(id, renaming),
+        Some(renaming) => {
+            data.insert_temp(id, renaming);
+        }
         None => data.remove::<Renaming>(id),
     });
 }
@@ -79,7 +81,7 @@ fn show_row(lab: &mut Lab, ui: &mut Ui, objects: &[Arc<Object>], index: usize, r
             text = text.weak();
         }
         let button = Button::selectable(selected, text).truncate().sense(Sense::click());
-        let response = ui.add_sized(size, button);
+        let response = ui.allocate_ui_with_layout(size, Layout::top_down_justified(Align::LEFT), |ui| ui.add(button)).inner;
         if response.clicked() && !selected {
             lab.selection = Selection { object: Some(id), ..Selection::default() };
         }
@@ -143,7 +145,7 @@ fn menu(lab: &mut Lab, response: &Response, objects: &[Arc<Object>], index: usiz
     let object = &objects[index];
     let id = object.id;
     response.context_menu(|ui| {
-        let mut item = |ui: &mut Ui, text: &str, enabled: bool| {
+        let item = |ui: &mut Ui, text: &str, enabled: bool| {
             let clicked = ui.add_enabled(enabled, Button::new(text)).clicked();
             if clicked {
                 ui.close();

@@ -11,7 +11,7 @@ use crate::app::formula_view;
 use crate::app::icon::{self, Icon};
 use crate::app::lab::{Hovered, Lab};
 use crate::app::number_field::{Drag, NumberEvent, NumberField};
-use crate::app::number_text::compact;
+use crate::app::number_text::{compact, with_digits};
 use crate::app::painter::color32;
 use crate::course::Stepper;
 use crate::course::stepper::Entry;
@@ -151,7 +151,7 @@ impl Grid {
         let lines = texts(&stepper.levels()[0][0]).len();
         let scale = lab.theme.text_scale as f32;
         let pitch = ((room - 4.0) / count as f32).clamp(58.0 * scale, 96.0 * scale);
-        Self { cell: vec2(pitch - 10.0, (17.0 + 13.0 * lines as f32) * scale), pitch, lines }
+        Self { cell: vec2(pitch - 10.0, (21.0 + 13.0 * lines as f32) * scale), pitch, lines }
     }
 
     fn rect(&self, origin: eframe::egui::Pos2, level: usize, position: usize) -> Rect {
@@ -235,9 +235,12 @@ fn arrows(
         let from = pos2(parent.center().x - sign * 0.15 * grid.cell.x, parent.bottom() + 1.0);
         let to = pos2(child.center().x + sign * 0.22 * grid.cell.x, child.top() - 1.0);
         ui.painter().line_segment([from, to], Stroke::new(if told { 1.6 } else { 1.0 }, ink.gamma_multiply(0.8)));
-        let anchor = if side == 0 { Align2::RIGHT_CENTER } else { Align2::LEFT_CENTER };
-        let at = from.lerp(to, 0.55) + vec2(sign * 4.0, 2.0);
-        ui.painter().text(at, anchor, compact(weight), font.clone(), ink);
+        // The number stands on its line, the line behind it wiped out: beside it there is no room.
+        let text = if grid.pitch < 64.0 { with_digits(weight, 2) } else { compact(weight) };
+        let galley = ui.painter().layout_no_wrap(text, font.clone(), ink);
+        let place = Align2::CENTER_CENTER.anchor_size(from.lerp(to, 0.5), galley.size());
+        ui.painter().rect_filled(place.shrink2(vec2(0.0, 1.0)), 2.0, ui.visuals().panel_fill);
+        ui.painter().galley(place.min, galley, ink);
     }
 }
 
@@ -296,5 +299,54 @@ fn cell(
     for (line, text) in texts(entry).iter().enumerate() {
         let y = rect.bottom() - 3.0 - step * (lines - line) as f32;
         painter.text(pos2(middle, y), Align2::CENTER_TOP, text, FontId::proportional(11.0 * scale), ink);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::test_bench;
+    use egui_kittest::kittest::Queryable as _;
+
+    const SIZE: (f32, f32) = (290.0, 640.0);
+
+    #[test]
+    fn one_step_on_shows_the_next_frame_and_back_the_one_before() {
+        let mut window = test_bench::window(test_bench::lab(), SIZE, show);
+        window.get_by_label("One step on").click();
+        window.run();
+        window.get_by_label("One step on").click();
+        window.run();
+        assert_eq!(window.state().stepper.frame, 2, "two steps on");
+        window.get_by_label("One step back").click();
+        window.run();
+        assert_eq!(window.state().stepper.frame, 1, "one back");
+    }
+
+    #[test]
+    fn playing_goes_on_by_itself_and_ends() {
+        let mut window = test_bench::window(test_bench::lab(), SIZE, show);
+        window.get_by_label("Play").click();
+        window.step();
+        for _ in 0..2000 {
+            if !window.state().stepper.playing && window.state().stepper.frame > 0 {
+                break;
+            }
+            window.step();
+        }
+        let last = window.state().scheme().unwrap().frames().len() - 1;
+        assert_eq!(window.state().stepper.frame, last, "the last frame");
+        assert!(!window.state().stepper.playing, "it stops there");
+    }
+
+    #[test]
+    fn an_entry_under_the_pointer_lights_up_everywhere() {
+        let mut window = test_bench::window(test_bench::lab(), SIZE, show);
+        let object = window.state().selection.object.unwrap();
+        let entry = window.state().scheme().unwrap().levels()[1][2].clone();
+        let cell = window.get_by_label_contains(&format!("{} = ", entry.plain_label)).rect().center();
+        window.hover_at(cell);
+        window.run();
+        assert_eq!(window.state().hovered, Hovered::Entry(object, 1, 2), "entry 2 of level 1");
     }
 }

@@ -1,6 +1,6 @@
 //! The knots as a list that can be typed.
 
-use eframe::egui::{RichText, Ui};
+use eframe::egui::{RichText, ScrollArea, TextStyle, Ui};
 
 use crate::app::inspector::Subject;
 use crate::app::lab::Lab;
@@ -32,8 +32,10 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, subject: &Subject) {
         let mut trial = lab.history.document().clone();
         trial.apply(&edit(text)?).map(|_| ()).map_err(|error| error.to_string())
     };
-    let rows = (text.len() / 34 + 1).clamp(2, 6);
-    let taken = TextField::new("Knots", &text).rows(rows).hint("0 0 0 1 2 3 3 3").show(ui, ("knots", object), check);
+    let most = 7.0 * ui.text_style_height(&TextStyle::Body);
+    let field = TextField::new("Knot list", &text).rows(2).hint("0 0 0 1 2 3 3 3");
+    let area = ScrollArea::vertical().id_salt(("knot list", object)).max_height(most).auto_shrink([false, true]);
+    let taken = area.show(ui, |ui| field.show(ui, ("knots", object), check)).inner;
     if let Some(Ok(edit)) = taken.as_deref().map(edit) {
         lab.edit(edit);
     }

@@ -39,7 +39,10 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, scene: &Scene, rect: Rect) {
         let x = cell.center().x;
         let height = (bottom - top) * value.clamp(0.0, 1.0) as f32;
         painter.rect_filled(Rect::from_min_max(pos2(x - half, bottom - height), pos2(x + half, bottom)), 1.5, color);
-        painter.text(pos2(x, bottom + 3.0), Align2::CENTER_TOP, k.to_string(), small.clone(), color);
+        let mut font = small.clone();
+        let digits = k.to_string();
+        font.size = font.size.min(1.6 * (pitch - 2.0) / digits.len() as f32).max(6.0);
+        painter.text(pos2(x, bottom + 3.0), Align2::CENTER_TOP, digits, font, color);
         if pitch >= 18.0 {
             let text = if value > 0.0 && value < 0.005 { "~0".to_owned() } else { format!("{value:.2}") };
             painter.text(pos2(x, bottom + 16.0), Align2::CENTER_TOP, text, FontId::proportional(9.0), muted);

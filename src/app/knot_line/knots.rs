@@ -21,7 +21,7 @@ use crate::document::{Edit, ObjectId};
 const SNAP: f32 = 6.0;
 
 /// Knots that stand closer than this, in points, are ticks without a handle.
-const CLOSEST_HANDLES: f32 = 3.0;
+const CLOSEST_HANDLES: f32 = 6.0;
 
 /// Equal knots on the axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,6 +67,7 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, id: Id, scene: &Scene) {
         drag = None;
     }
     let mut last_x = f32::NEG_INFINITY;
+    let mut last_tick = f32::NEG_INFINITY;
     let mut label_end = f32::NEG_INFINITY;
     let mut drag_is_shown = false;
     let stacks = visible_stacks(scene);
@@ -77,7 +78,8 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, id: Id, scene: &Scene) {
         }
         let held = drag.is_some_and(|drag| (stack.value - drag.now).abs() <= 0.0) && !drag_is_shown;
         if x - last_x < CLOSEST_HANDLES && !held {
-            if x - last_x >= 1.0 {
+            if x - last_tick >= 1.5 {
+                last_tick = x;
                 ui.painter().vline(x, scene.plot.bottom()..=scene.plot.bottom() + 6.0, tick(lab));
             }
             continue;
@@ -96,6 +98,7 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, id: Id, scene: &Scene) {
         paint(lab, ui, scene, stack, x, ghost, response.as_ref(), &mut label_end);
         if let Some(response) = response {
             react(lab, ui, scene, stack, &response, &mut drag);
+            drag_is_shown |= drag.is_some_and(|drag| drag.handle == response.id);
         }
     }
     if let Some(KnotDrag { handle, now, .. }) = drag
@@ -107,7 +110,9 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, id: Id, scene: &Scene) {
         follow(lab, ui, &response, &mut drag);
     }
     ui.data_mut(|data| match drag {
-        Some(drag) => data.insert_temp(drag_id(id), drag),
+        Some(drag) => {
+            data.insert_temp(drag_id(id), drag);
+        }
         None => data.remove::<KnotDrag>(drag_id(id)),
     });
 }
@@ -154,7 +159,8 @@ fn marker_place(scene: &Scene, stack: &Stack, x: f32, copy: usize) -> Pos2 {
 /// `C²` and so on.
 fn continuity(degree: usize, multiplicity: usize) -> String {
     let order = degree.saturating_sub(multiplicity);
-    let raised = order.to_string().chars().filter_map(|digit| {
+    let digits = order.to_string();
+    let raised = digits.chars().filter_map(|digit| {
         let index = digit.to_digit(10)? as usize;
         ['\u{2070}', '\u{b9}', '\u{b2}', '\u{b3}', '\u{2074}', '\u{2075}', '\u{2076}', '\u{2077}', '\u{2078}', '\u{2079}']
             .get(index)
@@ -217,7 +223,7 @@ fn paint(
     let font = FontId::proportional(10.0 * theme.text_scale as f32);
     let roomy = response.is_some_and(Response::hovered) || x - *label_end > 34.0;
     if inside && !ghost && roomy {
-        text = format!("{text} {}", continuity(space.degree(), stack.multiplicity));
+        text = format!("{text} \u{b7} {}", continuity(space.degree(), stack.multiplicity));
     }
     let muted = if selected || lit { ink } else { color32(theme.muted_text) };
     let galley = painter.layout_no_wrap(text, font, if ghost { muted.gamma_multiply(0.5) } else { muted });

@@ -145,3 +145,95 @@ fn header(lab: &mut Lab, ui: &mut Ui, object: ObjectId, curve: &Nurbs<DVec2>, t:
         }
     });
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::test_bench;
+    use egui_kittest::kittest::Queryable as _;
+
+    const SIZE: (f32, f32) = (900.0, 180.0);
+
+    #[test]
+    fn a_dragged_knot_moves_alone_and_undo_brings_it_back() {
+        let mut window = test_bench::window(test_bench::lab(), SIZE, show);
+        let before = test_bench::knots(window.state());
+        test_bench::drag(&mut window, "Knot 2", 30.0, 0.0);
+        let after = test_bench::knots(window.state());
+        assert!(after[5] > 2.1 && after[5] < 2.9, "knot 5 went from 2 to {}", after[5]);
+        assert_eq!(after[6..], before[6..], "the knots behind stay");
+        assert_eq!(window.state().history.steps().0, 1, "one undo step");
+        window.state_mut().history.undo();
+        assert_eq!(test_bench::knots(window.state()), before, "undone");
+    }
+
+    #[test]
+    fn a_knot_near_its_neighbour_snaps_onto_it() {
+        let mut window = test_bench::window(test_bench::lab(), SIZE, show);
+        let two = window.get_by_label("Knot 2").rect().center().x;
+        let three = window.get_by_label("Knot 3").rect().center().x;
+        test_bench::drag(&mut window, "Knot 2", three - two - 4.0, 0.0);
+        assert_eq!(test_bench::knots(window.state())[5..7], [3.0, 3.0], "a double knot");
+        test_bench::drag(&mut window, "Knot 3, 2 copies", -40.0, 0.0);
+        let knots = test_bench::knots(window.state());
+        assert!(knots[5] < 2.9 && knots[6] == 3.0, "one copy is torn off: {knots:?}");
+    }
+
+    #[test]
+    fn a_knot_stops_at_its_neighbour() {
+        let mut window = test_bench::window(test_bench::lab(), SIZE, show);
+        test_bench::drag(&mut window, "Knot 2", 500.0, 0.0);
+        assert_eq!(test_bench::knots(window.state())[5..7], [3.0, 3.0], "far beyond is as far as it goes");
+    }
+
+    #[test]
+    fn the_cursor_changes_t_and_nothing_else() {
+        let mut window = test_bench::window(test_bench::lab(), SIZE, show);
+        let object = window.state().selection.object.unwrap();
+        let before = window.state().parameter(object).unwrap();
+        test_bench::drag(&mut window, "Cursor of t", 50.0, 0.0);
+        let after = window.state().parameter(object).unwrap();
+        assert!(after > before + 0.1, "t went from {before} to {after}");
+        assert_eq!(window.state().history.steps().0, 0, "the parameter is no part of the document");
+    }
+
+    #[test]
+    fn a_typed_parameter_is_taken_with_a_comma() {
+        let mut window = test_bench::window(test_bench::lab(), SIZE, show);
+        test_bench::type_into(&mut window, "Parameter t", "1,25");
+        let object = window.state().selection.object.unwrap();
+        assert_eq!(window.state().parameter(object), Some(1.25), "t");
+    }
+
+    #[test]
+    fn a_double_click_on_the_axis_inserts_a_knot() {
+        let mut window = test_bench::window(test_bench::lab(), SIZE, show);
+        let one = window.get_by_label("Knot 1").rect().center();
+        let two = window.get_by_label("Knot 2").rect().center();
+        let at = one.lerp(two, 0.5);
+        window.hover_at(at);
+        window.step();
+        for _ in 0..2 {
+            // A step is a quarter of a second: press and release in one, or the clicks are too far apart.
+            window.drag_at(at);
+            window.drop_at(at);
+            window.step();
+        }
+        window.run();
+        let knots = test_bench::knots(window.state());
+        assert_eq!(knots.len(), 12, "{knots:?}, messages {:?}", window.state().messages);
+        assert!((knots[5] - 1.5).abs() < 0.02, "{knots:?}");
+    }
+
+    #[test]
+    fn thousands_of_knots_are_shown() {
+        let count = 4000;
+        let knots = (0..count + 4).map(f64::from).collect();
+        let space = crate::core::bspline::SplineSpace::new(3, knots).unwrap();
+        let points = (0..count).map(|k| DVec2::new(f64::from(k), f64::from(k % 7))).collect();
+        let lab = test_bench::lab_with(Nurbs::polynomial(space, points).unwrap());
+        let window = test_bench::window(lab, SIZE, show);
+        let handles = window.query_all_by_label_contains("Knot ").count();
+        assert!((50..400).contains(&handles), "{handles} handles");
+    }
+}

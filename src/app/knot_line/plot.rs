@@ -1,7 +1,7 @@
 //! The basis functions over D, the cursor of the parameter, and what can be done with the mouse on the empty axis.
 
 use eframe::egui::{
-    Align2, Color32, CursorIcon, FontId, PointerButton, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, WidgetInfo,
+    Align2, Color32, CursorIcon, PointerButton, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, WidgetInfo,
     pos2, vec2,
 };
 
@@ -10,7 +10,7 @@ use crate::app::knot_line::{Scene, basis};
 use crate::app::lab::{Hovered, Lab};
 use crate::app::number_field::{NumberEvent, NumberField};
 use crate::app::number_text::{round_to_step, short};
-use crate::app::painter::color32;
+use crate::app::painter::{color32, paint_note};
 use crate::document::Edit;
 
 /// A function is under the pointer within this distance in points.
@@ -24,8 +24,8 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, scene: &Scene, response: &Respons
     paint_graphs(lab, ui, scene, &graphs);
     if too_many {
         let text = format!("{} B-splines: only the active ones are drawn, zoom in to see the others", scene.curve.points().len());
-        let at = scene.plot.center_top() + vec2(0.0, 2.0);
-        ui.painter().text(at, Align2::CENTER_TOP, text, FontId::proportional(11.0), color32(lab.theme.muted_text));
+        let at = scene.plot.center_top() + vec2(0.0, 4.0);
+        paint_note(ui.painter(), at, Align2::CENTER_TOP, &text, 11.0, lab.theme.muted_text, lab.theme.background);
     }
     cursor(lab, ui, scene);
     interact(lab, ui, scene, response, near);
