@@ -4,28 +4,34 @@
 //! [`command::Command`] is everything that can be commanded, [`files`] opens, saves and keeps safe.
 
 pub mod command;
+pub mod directories;
 pub mod lab;
+pub mod sheet;
 
+mod command_state;
 mod curves;
 mod file_dialog;
 mod files;
 mod formula_view;
+mod icon;
 mod inspector;
 mod knot_line;
 mod lesson_panel;
 mod look;
 mod menu_bar;
-mod icon;
 mod number_field;
 mod number_text;
 mod object_list;
 mod painter;
 mod palette;
+mod path_dialog;
 mod preferences;
 mod shortcut_sheet;
 mod smoke_log;
 mod status_bar;
 mod stepper_panel;
+#[cfg(test)]
+mod test_lab;
 mod text_field;
 mod toolbar;
 mod window;
