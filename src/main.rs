@@ -1,1 +1,7 @@
-fn main() { spline_lab::app::run(std::env::args().nth(1).map(Into::into)).unwrap(); }
+//! Spline Lab: `spline-lab [FILE]` opens the window, `spline-lab --help` lists the jobs that need none.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    spline_lab::command_line::run()
+}
