@@ -26,6 +26,8 @@ mod shortcut_sheet;
 mod smoke_log;
 mod status_bar;
 mod stepper_panel;
+#[cfg(test)]
+mod test_bench;
 mod text_field;
 mod toolbar;
 mod window;

@@ -213,10 +213,10 @@ mod tests {
         let at = one.lerp(two, 0.5);
         window.hover_at(at);
         window.step();
-        for _ in 0..2 {
-            // A step is a quarter of a second: press and release in one, or the clicks are too far apart.
-            window.drag_at(at);
-            window.drop_at(at);
+        for pressed in [true, false, true, false] {
+            let button = eframe::egui::PointerButton::Primary;
+            let modifiers = eframe::egui::Modifiers::NONE;
+            window.event(eframe::egui::Event::PointerButton { pos: at, button, pressed, modifiers });
             window.step();
         }
         window.run();
