@@ -1,5 +1,24 @@
 //! Chapter 6: spline curves.
+//!
+//! | file | what |
+//! |---|---|
+//! | `nurbs` | 6.1 the rational curve |
+//! | `knot_insertion` | 6.3 one knot, many knots, uniform refinement |
+//! | `knot_removal` | the nearest curve with one knot less |
+//! | `bezier_form` | 6.4 one Bezier curve for each knot interval |
+//! | `degree` | degree elevation and reduction |
+//! | `curvature` | frames, signed curvature, osculating circles |
+//! | `deviation` | certified distance of two curves at equal parameters |
 
+mod bezier_form;
+mod curvature;
+mod deviation;
+mod knot_insertion;
+mod knot_removal;
 mod nurbs;
 
+pub use bezier_form::{BezierSegment, RationalSegment};
+pub use curvature::{Frame, OsculatingCircle};
+pub use deviation::{Deviation, deviation};
+pub use knot_removal::{KnotRemoval, NurbsKnotRemoval};
 pub use nurbs::Nurbs;
