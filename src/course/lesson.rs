@@ -84,7 +84,9 @@ struct LessonFile {
 pub fn lessons() -> Vec<Lesson> {
     static LESSONS: OnceLock<Vec<Lesson>> = OnceLock::new();
     // A test loads every file, so that none is missing here.
-    LESSONS.get_or_init(|| FILES.iter().filter_map(|(_, text)| Lesson::from_json(text).ok()).collect()).clone()
+    LESSONS
+        .get_or_init(|| FILES.iter().filter_map(|(_, text)| Lesson::from_json(text).ok()).collect())
+        .clone()
 }
 
 impl Lesson {
@@ -130,10 +132,11 @@ impl Lesson {
 
     /// All formulas: the displayed one and those between dollar signs.
     pub fn formulas(&self) -> Vec<String> {
-        let inline = self.texts().filter_map(|text| text_parts(text).ok()).flatten().filter_map(|part| match part {
-            TextPart::Formula(formula) => Some(formula),
-            TextPart::Words(_) => None,
-        });
+        let inline =
+            self.texts().filter_map(|text| text_parts(text).ok()).flatten().filter_map(|part| match part {
+                TextPart::Formula(formula) => Some(formula),
+                TextPart::Words(_) => None,
+            });
         std::iter::once(self.display_formula.clone()).chain(inline).collect()
     }
 }
@@ -151,4 +154,120 @@ pub fn text_parts(text: &str) -> Result<Vec<TextPart>, LessonError> {
         if index % 2 == 0 { TextPart::Words(part.to_owned()) } else { TextPart::Formula(part.to_owned()) }
     });
     Ok(parts.collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::course::question::Answer;
+
+    #[test]
+    fn every_lesson_file_loads() {
+        for (name, text) in FILES {
+            if let Err(error) = Lesson::from_json(text) {
+                panic!("{name}: {error}");
+            }
+        }
+        assert_eq!(lessons().len(), FILES.len(), "the list is complete");
+    }
+
+    #[test]
+    fn every_formula_of_every_lesson_can_be_typeset() {
+        for lesson in lessons() {
+            for source in lesson.formulas() {
+                if let Err(error) = crate::figure::formula::layout(&source, 12.0) {
+                    panic!("{}: {source}: {error}", lesson.section);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn file_names_begin_with_the_section_and_follow_the_course() {
+        let place = |section: &str| -> Vec<u32> {
+            section.split('.').map(|number| number.parse().expect("a section is made of numbers")).collect()
+        };
+        let mut last = Vec::new();
+        for ((name, _), lesson) in FILES.iter().zip(lessons()) {
+            assert!(
+                name.starts_with(&format!("{}-", lesson.section)),
+                "{name} is section {}",
+                lesson.section
+            );
+            let this = place(&lesson.section);
+            assert!(this > last, "{name} stands after a later section");
+            last = this;
+        }
+    }
+
+    #[test]
+    fn every_lesson_is_short_and_gives_three_things_to_try() {
+        for lesson in lessons() {
+            let words: usize = lesson.paragraphs.iter().map(|text| text.split_whitespace().count()).sum();
+            assert!((80..=260).contains(&words), "{}: {words} words", lesson.section);
+            assert_eq!(lesson.things_to_try.len(), 3, "{}", lesson.section);
+        }
+    }
+
+    #[test]
+    fn the_right_answer_of_every_number_question_is_accepted() {
+        for lesson in lessons() {
+            if let Some(number) = lesson.question.right_number(&lesson.document) {
+                let verdict = lesson.question.check(&lesson.document, &Answer::Text(number.to_string()));
+                assert!(verdict.correct, "{}: {number}: {verdict:?}", lesson.section);
+            }
+        }
+    }
+
+    #[test]
+    fn lesson_4_5_shows_the_worked_example() {
+        let all = lessons();
+        let lesson = all.iter().find(|lesson| lesson.section == "4.5").expect("the lesson exists");
+        let object = lesson.document.objects()[0].id;
+        let curve = lesson.document.curve(object).unwrap();
+        assert_eq!(
+            curve.space().knots(),
+            [0.0, 0.0, 0.0, 1.0, 4.0, 6.0, 7.0, 8.0, 8.0, 8.0, 9.0],
+            "the knots of example 4.5-a"
+        );
+        for (k, (point, average)) in curve.points().iter().zip(curve.space().greville_abscissae()).enumerate()
+        {
+            assert!(
+                (point.x - average).abs() < 1e-14,
+                "control point {k} stands at {} not {average}",
+                point.x
+            );
+        }
+        assert_eq!(lesson.view.parameters.get(&object), Some(&5.0), "t = 5 is set");
+        let right = lesson.question.right_number(&lesson.document).unwrap();
+        assert!((right - 2.0).abs() < 1e-14, "p_4^2 is {right}");
+    }
+
+    #[test]
+    fn texts_are_divided_at_dollar_signs() {
+        let parts = text_parts("At $t = 4$ a knot").unwrap();
+        let expected = [
+            TextPart::Words("At ".into()),
+            TextPart::Formula("t = 4".into()),
+            TextPart::Words(" a knot".into()),
+        ];
+        assert_eq!(parts, expected, "words, formula, words");
+        assert!(text_parts("costs $5").is_err(), "an open formula");
+    }
+
+    #[test]
+    fn mistakes_in_a_lesson_are_named() {
+        let (_, good) = FILES[0];
+        for (from, to, named) in [
+            ("\"title\"", "\"titel\"", "titel"),
+            ("\"object\": 1,", "\"object\": 77,", "77"),
+            ("\"kind\": \"number\"", "\"kind\": \"riddle\"", "riddle"),
+            ("$t = 5$", "$t = 5", "not closed"),
+        ] {
+            let bad = good.replacen(from, to, 1);
+            assert_ne!(bad, good, "{from} stands in the lesson");
+            let error = Lesson::from_json(&bad).expect_err("the lesson is damaged").to_string();
+            assert!(error.contains(named), "{from} → {to}: {error}");
+        }
+    }
 }

@@ -121,10 +121,6 @@ fn label_on_page<'a>(label: &'a Label, view: &Viewport) -> Option<PageItem<'a>> 
     let Some(layout) = formula else {
         return Some(PageItem::Text { at, text: &label.text, size, color, anchor });
     };
-    let before = match anchor {
-        Anchor::Start => 0.0,
-        Anchor::Middle => layout.width / 2.0,
-        Anchor::End => layout.width,
-    };
+    let before = anchor.part_before() * layout.width;
     Some(PageItem::Formula { at: DVec2::new(at.x - before, at.y), layout, color })
 }

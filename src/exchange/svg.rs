@@ -10,7 +10,7 @@ use resvg::usvg::roxmltree;
 use thiserror::Error;
 
 use crate::exchange::page::{PageItem, lay_out};
-use crate::figure::font_metrics::FontFace;
+use crate::figure::font_metrics::{FontFace, runs, text_width};
 use crate::figure::formula::FormulaLayout;
 use crate::figure::picture::{Anchor, Color, Path, Picture, Segment, Stroke, Viewport};
 
@@ -90,7 +90,7 @@ pub enum SvgReadError {
 /// The picture as an SVG file, with `embedded_document` (JSON) inside if given.
 ///
 /// The text of the document comes back from [`read_embedded_document`] as it was, except that characters which XML forbids
-/// come back as JSON escapes (`\u0000`), and so does a carriage return outside a string as a line feed.
+/// come back as JSON escapes (`\u0000`), and a carriage return, white space to JSON, as a line feed.
 pub fn write_svg(picture: &Picture, view: &Viewport, embedded_document: Option<&str>) -> String {
     let (width, height) = (Number(view.size.x), Number(view.size.y));
     let mut svg = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
@@ -259,23 +259,41 @@ fn write_item(svg: &mut String, item: &PageItem<'_>) {
             svg.push_str("/>\n");
         }
         PageItem::Text { at, text, size, color, anchor } => {
-            let anchor = match anchor {
-                Anchor::Start => "start",
-                Anchor::Middle => "middle",
-                Anchor::End => "end",
-            };
-            let (x, y, size, text) = (Number(at.x), Number(at.y), Number(*size), Escaped(text));
-            let (fill, family) = (Paint("fill", *color), family(FontFace::Regular));
-            put(
-                svg,
-                format_args!(
-                    "<text xml:space=\"preserve\" x=\"{x}\" y=\"{y}\" font-family=\"{family}\" font-size=\"{size}\" \
-                     text-anchor=\"{anchor}\"{fill}>{text}</text>\n"
-                ),
-            );
+            write_text(svg, *at, text, *size, *color, *anchor)
         }
         PageItem::Formula { at, layout, color } => write_formula(svg, *at, layout, *color),
     }
+}
+
+fn write_text(svg: &mut String, at: DVec2, text: &str, size: f64, color: Color, anchor: Anchor) {
+    let runs = runs(FontFace::Regular, text);
+    let fill = Paint("fill", color);
+    if let [(font, run)] = runs[..] {
+        let (x, y, size, run) = (Number(at.x), Number(at.y), Number(size), Escaped(run));
+        let family = family(font);
+        let anchor = match anchor {
+            Anchor::Start => "start",
+            Anchor::Middle => "middle",
+            Anchor::End => "end",
+        };
+        put(
+            svg,
+            format_args!(
+                "<text xml:space=\"preserve\" x=\"{x}\" y=\"{y}\" font-family=\"{family}\" font-size=\"{size}\" \
+                 text-anchor=\"{anchor}\"{fill}>{run}</text>\n"
+            ),
+        );
+        return;
+    }
+    // Each part gets its own place, so that no viewer takes a stand-in for all of them.
+    let mut x = at.x - anchor.part_before() * text_width(FontFace::Regular, text, size);
+    put(svg, format_args!("<text xml:space=\"preserve\" font-size=\"{}\"{fill}>", Number(size)));
+    for (font, run) in runs {
+        let (place, y, family, letters) = (Number(x), Number(at.y), family(font), Escaped(run));
+        put(svg, format_args!("<tspan x=\"{place}\" y=\"{y}\" font-family=\"{family}\">{letters}</tspan>"));
+        x += text_width(font, run, size);
+    }
+    svg.push_str("</text>\n");
 }
 
 fn write_formula(svg: &mut String, at: DVec2, layout: &FormulaLayout, color: Color) {

@@ -88,9 +88,31 @@ pub fn has_letter(font: FontFace, letter: char) -> bool {
     font.face().is_some_and(|face| face.glyph_index(letter).is_some())
 }
 
-/// Width in pt of one line of `text` set at `size` pt, without kerning.
+/// Width in pt of one line of `text` set at `size` pt, without kerning; letters that the face lacks are taken from
+/// STIX Two Math if it has them.
 pub fn text_width(font: FontFace, text: &str, size: f64) -> f64 {
-    text.chars().map(|letter| letter_metrics(font, letter).advance).sum::<f64>() * size
+    text.chars().map(|letter| letter_metrics(font_of(font, letter), letter).advance).sum::<f64>() * size
+}
+
+fn font_of(font: FontFace, letter: char) -> FontFace {
+    if !has_letter(font, letter) && has_letter(FontFace::Math, letter) { FontFace::Math } else { font }
+}
+
+/// The text cut into parts of one face each: `font`, or STIX Two Math for letters that `font` lacks.
+pub fn runs(font: FontFace, text: &str) -> Vec<(FontFace, &str)> {
+    let mut runs = Vec::new();
+    let mut start = 0;
+    let mut current = None;
+    for (index, letter) in text.char_indices() {
+        let wanted = font_of(font, letter);
+        if let Some(before) = current.filter(|&before| before != wanted) {
+            runs.push((before, &text[start..index]));
+            start = index;
+        }
+        current = Some(wanted);
+    }
+    runs.extend(current.map(|last| (last, &text[start..])));
+    runs
 }
 
 /// How far the letters of the face reach above and below the base line at `size` pt, both positive.
@@ -125,6 +147,14 @@ mod tests {
         let bold = text_width(FontFace::SemiBold, "knot", 10.0);
         assert!(bold > one, "semi bold {bold} and regular {one}");
         assert_eq!(text_width(FontFace::Math, "", 10.0), 0.0, "nothing");
+    }
+
+    #[test]
+    fn letters_that_a_face_lacks_come_from_the_other() {
+        let found = runs(FontFace::Regular, "for 𝑥𝑦 > 0");
+        let expected = [(FontFace::Regular, "for "), (FontFace::Math, "𝑥𝑦"), (FontFace::Regular, " > 0")];
+        assert_eq!(found, expected, "three parts");
+        assert!(runs(FontFace::Regular, "").is_empty(), "nothing");
     }
 
     #[test]

@@ -96,8 +96,11 @@ impl Quantity {
             Self::Entry { parameter, level, index, axis } => {
                 find_entry(curve, parameter, level, index).map(|(_, entry)| axis.of(&entry.coordinates))
             }
-            Self::Share { parameter, level, index } => find_entry(curve, parameter, level, index)
-                .and_then(|(_, entry)| entry.share.ok_or_else(|| "A control point has no factor.".to_owned())),
+            Self::Share { parameter, level, index } => {
+                find_entry(curve, parameter, level, index).and_then(|(_, entry)| {
+                    entry.share.ok_or_else(|| "A control point has no factor.".to_owned())
+                })
+            }
             Self::Point { parameter, axis } => {
                 curve.evaluate(parameter).map(|point| axis.of(&point.to_array())).map_err(told)
             }
@@ -209,9 +212,8 @@ fn entry_hint(
     if close(axis.other().of(&entry.coordinates)) {
         return format!("That is its {} coordinate.", axis.other().letter());
     }
-    if let Some(other) =
-        stepper.table().find(|other| other.tie() != entry.tie() && close(axis.of(&other.coordinates)))
-    {
+    let others = [left, right].into_iter().chain(stepper.table().filter(|other| other.tie() != entry.tie()));
+    if let Some(other) = others.into_iter().find(|other| close(axis.of(&other.coordinates))) {
         return format!("That is ${}$; ${name}$ is made of ${left_name}$ and ${right_name}$.", other.label);
     }
     format!(

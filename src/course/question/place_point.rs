@@ -52,8 +52,11 @@ pub(super) fn check(
             if beside > tolerance {
                 format!("${name}$ lies on the segment from ${left}$ to ${right}$; yours is beside it.")
             } else {
-                let true_share =
-                    if leg.length_squared() > 0.0 { (entry_point(&entry) - from).length() / leg.length() } else { 0.0 };
+                let true_share = if leg.length_squared() > 0.0 {
+                    (entry_point(&entry) - from).length() / leg.length()
+                } else {
+                    0.0
+                };
                 format!(
                     "It is on the segment from ${left}$ to ${right}$, but {} % of the way along; ${name}$ is {}.",
                     short_number((100.0 * along).round()),

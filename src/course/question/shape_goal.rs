@@ -121,7 +121,8 @@ fn distance(curve: &Nurbs<DVec2>, target: DVec2) -> f64 {
     for piece in curve.space().breaks().windows(2) {
         let step = (piece[1] - piece[0]) / SAMPLES_PER_PIECE as f64;
         let at = |i: usize| if i == SAMPLES_PER_PIECE { piece[1] } else { piece[0] + i as f64 * step };
-        let nearest = (0..=SAMPLES_PER_PIECE).min_by(|&i, &j| away(at(i)).total_cmp(&away(at(j)))).unwrap_or(0);
+        let nearest =
+            (0..=SAMPLES_PER_PIECE).min_by(|&i, &j| away(at(i)).total_cmp(&away(at(j)))).unwrap_or(0);
         let bracket = (at(nearest.saturating_sub(1)), at((nearest + 1).min(SAMPLES_PER_PIECE)));
         best = best.min(away(at(nearest))).min(golden_section(&away, bracket));
     }

@@ -124,7 +124,7 @@ mod tests {
     fn a_step_shows_its_knots_as_a_fraction() {
         let stepper = de_boor_stepper(&graph(None), 5.0).unwrap();
         let formula = &stepper.frames()[2].formula;
-        let expected = "p_3^1 = \\frac{5-1}{7-1} c_3 + \\frac{7-5}{7-1} c_2 = ";
+        let expected = "p_3^1 = \\frac{5-1}{7-1} \\, c_3 + \\frac{7-5}{7-1} \\, c_2 = ";
         assert!(formula.starts_with(expected), "{formula}");
     }
 
@@ -212,7 +212,7 @@ mod tests {
         assert!((entry.weight.unwrap() - 0.75).abs() < 1e-15, "{entry:?}");
         assert_eq!(entry.texts.len(), 2, "point and weight");
         assert!(
-            stepper.frames()[1].formula.starts_with("w_2^1 p_2^1 = \\frac{5-0}{6-0} w_2 c_2"),
+            stepper.frames()[1].formula.starts_with("w_2^1 \\, p_2^1 = \\frac{5-0}{6-0} \\, w_2 \\, c_2"),
             "homogeneous"
         );
     }
@@ -249,5 +249,31 @@ mod tests {
         let stepper = Stepper::new(&scheme.triangle, &context).unwrap();
         assert_eq!(stepper.entry(2, 1).map(|entry| entry.texts.clone()), Some(vec!["2".to_owned()]), "p_4^2");
         assert!(stepper.frames()[5].formula.ends_with("= 2"), "{}", stepper.frames()[5].formula);
+    }
+
+    #[test]
+    fn every_formula_can_be_typeset() {
+        let tiny = {
+            let knots = vec![-1e-9, 0.0, 0.0, 2e-9, 1e12, 1e12, 2e12];
+            let space = SplineSpace::new(2, knots).unwrap();
+            let points = [(-1.0, 1e-12), (3.0, -4e20), (5.0, 6.0), (-0.5, 0.0)].map(DVec2::from).to_vec();
+            Nurbs::new(space, points, vec![1.0, 1e-8, 3.0, 2.0]).unwrap()
+        };
+        let weighted = graph(Some(vec![1.0, 2.0, 0.5, 3.0, 1.0, 1.5, 1.0]));
+        for (curve, t) in [
+            (&graph(None), 5.0),
+            (&weighted, 4.0),
+            (&weighted, 8.0),
+            (&tiny, 1e-9),
+            (&closed(12, vec![1.0; 5]), 0.5),
+        ] {
+            let stepper = de_boor_stepper(curve, t).unwrap();
+            let labels = stepper.table().map(|entry| &entry.label);
+            for source in stepper.frames().iter().map(|frame| &frame.formula).chain(labels) {
+                if let Err(error) = crate::figure::formula::layout(source, 12.0) {
+                    panic!("t = {t}: {source}: {error}");
+                }
+            }
+        }
     }
 }

@@ -203,7 +203,7 @@ struct Shortcut {
 impl Shortcut {
     fn find(degree: usize, context: &SchemeContext) -> Self {
         let t = context.parameter;
-        let same = |knot: &f64| *knot >= t && *knot <= t;
+        let same = |knot: &f64| *knot == t;
         let (left, right) = match context.algorithm {
             Algorithm::DeBoor { knots, span } => (
                 knots[..=span].iter().rev().take_while(|knot| same(knot)).count(),

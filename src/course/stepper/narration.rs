@@ -165,10 +165,10 @@ fn step_formula(context: &SchemeContext, entry: &Entry, left: &Entry, right: &En
     let (name, value) = (homogeneous_label(entry), formula_point(&homogeneous(entry)));
     match context.algorithm {
         Algorithm::DeBoor { .. } => {
-            format!("{name} = {right_share} {right_name} + {left_share} {left_name} = {value}")
+            format!("{name} = {right_share} \\, {right_name} + {left_share} \\, {left_name} = {value}")
         }
         Algorithm::DeCasteljau => {
-            format!("{name} = {left_share} {left_name} + {right_share} {right_name} = {value}")
+            format!("{name} = {left_share} \\, {left_name} + {right_share} \\, {right_name} = {value}")
         }
     }
 }
@@ -242,7 +242,7 @@ fn homogeneous_label(entry: &Entry) -> String {
     match entry.weight {
         Some(_) => {
             let weight = entry.label.replacen(['c', 'p'], "w", 1);
-            format!("{weight} {}", entry.label)
+            format!("{weight} \\, {}", entry.label)
         }
         None => entry.label.clone(),
     }

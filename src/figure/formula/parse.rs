@@ -21,8 +21,8 @@ pub(super) enum Node {
     BigOperator { sign: char, has_limits: bool },
     /// Something in braces.
     Group(Vec<Self>),
-    /// Something with a subscript, a superscript or both.
-    Scripts { base: Box<Self>, below: Option<Vec<Self>>, above: Option<Vec<Self>> },
+    /// Something with primes, a subscript or a superscript.
+    Scripts { base: Box<Self>, primes: usize, below: Option<Vec<Self>>, above: Option<Vec<Self>> },
     /// A fraction; without a bar in a binomial coefficient.
     Fraction { numerator: Vec<Self>, denominator: Vec<Self>, has_bar: bool },
     /// A square root.
@@ -97,7 +97,7 @@ impl Parser<'_> {
             _ => self.atom()?,
         };
         let (mut below, mut above): (Option<Vec<Node>>, Option<Vec<Node>>) = (None, None);
-        let mut has_superscript = false;
+        let mut primes = 0;
         loop {
             self.skip_blanks();
             let position = self.position;
@@ -110,24 +110,28 @@ impl Parser<'_> {
                     below = Some(self.argument()?);
                 }
                 Some('^') => {
-                    if has_superscript {
+                    if above.is_some() {
                         return Err(FormulaError::SecondScript { position, what: "superscript" });
                     }
                     self.position += 1;
-                    above.get_or_insert_default().extend(self.argument()?);
-                    has_superscript = true;
+                    let nodes = self.argument()?;
+                    if nodes.iter().all(|node| matches!(node, Node::Sign('′', _))) {
+                        primes += nodes.len();
+                    } else {
+                        above = Some(nodes);
+                    }
                 }
                 Some('\'' | '′') => {
                     self.position += 1;
-                    above.get_or_insert_default().push(Node::Sign('′', Class::Ordinary));
+                    primes += 1;
                 }
                 _ => break,
             }
         }
-        if below.is_none() && above.is_none() {
+        if below.is_none() && above.is_none() && primes == 0 {
             return Ok(base);
         }
-        Ok(Node::Scripts { base: Box::new(base), below, above })
+        Ok(Node::Scripts { base: Box::new(base), primes, below, above })
     }
 
     /// A group in braces, or a single letter or command.

@@ -11,6 +11,14 @@ const DISPLAYED_SUM: f64 = 1.45;
 const DISPLAYED_INTEGRAL: f64 = 1.75;
 /// Delimiters may miss this part of the height of what they enclose.
 const DELIMITER_COVER: f64 = 0.92;
+/// Delimiters that need not be larger than this are drawn in the usual size.
+const LARGEST_USUAL: f64 = 1.12;
+/// Thickness of the stroke of a bracket as a multiple of that of a fraction bar.
+const BRACKET_STEM: f64 = 1.25;
+/// Length of the serifs of a bracket in em.
+const BRACKET_SERIF: f64 = 0.26;
+/// Space on either side of a bracket in em.
+const BRACKET_MARGIN: f64 = 0.08;
 /// Space on either side of a fraction, in em.
 const FRACTION_SIDE: f64 = 0.1;
 
@@ -165,8 +173,8 @@ impl Typesetter {
             Node::FunctionName { name, .. } => text(name, em),
             Node::BigOperator { sign, has_limits } => self.big_operator(*sign, *has_limits, style),
             Node::Group(nodes) => self.row(nodes, style),
-            Node::Scripts { base, below, above } => {
-                self.scripts(base, below.as_deref(), above.as_deref(), style)
+            Node::Scripts { base, primes, below, above } => {
+                self.scripts(base, *primes, [below.as_deref(), above.as_deref()], style)
             }
             Node::Fraction { numerator, denominator, has_bar } => {
                 self.fraction(numerator, denominator, *has_bar, style)
@@ -207,13 +215,12 @@ impl Typesetter {
     fn scripts(
         &self,
         base: &Node,
-        below: Option<&[Node]>,
-        above: Option<&[Node]>,
+        primes: usize,
+        scripts: [Option<&[Node]>; 2],
         style: Style,
     ) -> FormulaLayout {
         let body = self.node(base, style);
-        let [below, above] =
-            [below, above].map(|nodes| nodes.map(|nodes| self.row(nodes, style.of_script())));
+        let [below, above] = scripts.map(|nodes| nodes.map(|nodes| self.row(nodes, style.of_script())));
         let has_limits = matches!(
             base,
             Node::BigOperator { has_limits: true, .. } | Node::FunctionName { has_limits: true, .. }
@@ -246,12 +253,20 @@ impl Typesetter {
                 down += missing - rise;
             }
         }
+        // Primes are drawn high in the font and need no raising, but over a tall base.
+        let primes = text(&"′".repeat(primes), em);
+        let raised = if is_letter { 0.0 } else { (body.ascent - primes.ascent).max(0.0) };
         let mut line = body;
         let start = line.width;
         // The base of an integral leans: its superscript stands at the right end, its subscript further left.
         let is_leaning_sign = matches!(base, Node::BigOperator { has_limits: false, .. });
         let (shift_above, shift_below) = if is_leaning_sign { (0.0, -slant) } else { (slant, 0.0) };
-        for (script, x, y) in [(above, start + shift_above, up), (below, start + shift_below, -down)] {
+        let behind_primes = start + shift_above + primes.width;
+        if !primes.is_blank() {
+            line.width = line.width.max(behind_primes);
+            line.put(primes, start + shift_above, raised);
+        }
+        for (script, x, y) in [(above, behind_primes, up), (below, start + shift_below, -down)] {
             if let Some(script) = script {
                 line.width = line.width.max(x + script.width + c.space_after_script * em);
                 line.put(script, x, y);
@@ -372,12 +387,39 @@ impl Typesetter {
         line
     }
 
-    /// A delimiter of at least its usual size, drawn larger until it is `wanted` pt high.
+    /// A delimiter of at least its usual size: larger ones are put together from rules or drawn larger until they are
+    /// `wanted` pt high.
     fn delimiter(&self, sign: char, wanted: f64, style: Style) -> FormulaLayout {
         let em = self.em(style);
         let usual = text(&sign.to_string(), em).height();
-        let factor = if usual > 0.0 { (wanted / usual).max(1.0) } else { 1.0 };
-        self.centred(sign, em * factor, style)
+        if usual <= 0.0 || wanted <= usual * LARGEST_USUAL {
+            return self.centred(sign, em, style);
+        }
+        let Some([second, top, bottom, is_right]) = rules_of(sign) else {
+            return self.centred(sign, em * wanted / usual, style);
+        };
+        let thickness = self.constants.rule_thickness * em;
+        let (stem, serif) = (BRACKET_STEM * thickness, BRACKET_SERIF * em);
+        let low = self.constants.axis_height * em - wanted / 2.0;
+        let has_serif = top || bottom;
+        let width = if has_serif { serif } else { stem };
+        let margin = BRACKET_MARGIN * em;
+        let mut line = FormulaLayout::default();
+        let left = margin + if is_right { width - stem } else { 0.0 };
+        line.put(FormulaLayout::rule(stem, wanted), left, low);
+        let mut reach = width;
+        if second {
+            reach += 3.0 * stem;
+            line.put(FormulaLayout::rule(stem, wanted), left + 3.0 * stem, low);
+        }
+        if top {
+            line.put(FormulaLayout::rule(width, thickness), margin, low + wanted - thickness);
+        }
+        if bottom {
+            line.put(FormulaLayout::rule(width, thickness), margin, low);
+        }
+        line.width = reach + 2.0 * margin;
+        line
     }
 
     fn accent(&self, sign: char, body: &[Node], style: Style) -> FormulaLayout {
@@ -397,6 +439,22 @@ impl Typesetter {
     }
 }
 
+/// For signs made of straight strokes: whether there is a second one, a serif above, one below, and whether the
+/// serifs point to the left.
+const fn rules_of(sign: char) -> Option<[bool; 4]> {
+    Some(match sign {
+        '|' => [false, false, false, false],
+        '‖' => [true, false, false, false],
+        '[' => [false, true, true, false],
+        ']' => [false, true, true, true],
+        '⌊' => [false, false, true, false],
+        '⌋' => [false, false, true, true],
+        '⌈' => [false, true, false, false],
+        '⌉' => [false, true, false, true],
+        _ => return None,
+    })
+}
+
 /// Letters of one size on a line.
 fn text(letters: &str, size: f64) -> FormulaLayout {
     let mut width = 0.0;
@@ -410,6 +468,7 @@ fn text(letters: &str, size: f64) -> FormulaLayout {
         }
     }
     if top < bottom {
+        // No ink.
         return FormulaLayout::space(width);
     }
     let glyphs = vec![PlacedText { text: letters.to_owned(), x: 0.0, y: 0.0, size }];
