@@ -4,11 +4,15 @@
 
 use glam::DVec2;
 
+use crate::figure::clip::path_near_box;
 use crate::figure::formula::{self, FormulaLayout};
 use crate::figure::picture::{
     Anchor, Color, Item, Label, Marker, MarkerShape, Path, Picture, Segment, Stroke, Viewport,
 };
 
+/// Lines that leave the page by more than this multiple of its size are cut near the page: the programs that draw them count in
+/// single precision.
+const HUGE: f64 = 30.0;
 /// Width in pt of the strokes of a cross that has no outline of its own.
 const CROSS_WIDTH: f64 = 1.0;
 
@@ -62,8 +66,19 @@ fn path_on_page<'a>(path: &Path, view: &Viewport) -> Option<PageItem<'a>> {
     });
     let starts = matches!(segments.first(), Some(Segment::Move(_)));
     let stroke = path.stroke.as_ref().and_then(visible);
-    (can_be_shown && starts && (stroke.is_some() || path.fill.is_some()))
-        .then(|| PageItem::Path(Path { segments, stroke, fill: path.fill }))
+    let is_huge = segments.iter().any(|segment| match segment {
+        Segment::Move(to) | Segment::Line(to) | Segment::Cubic(_, _, to) => {
+            to.abs().max_element() > HUGE * view.size.max_element()
+        }
+        Segment::Close => false,
+    });
+    let segments = if can_be_shown && is_huge && path.fill.is_none() {
+        path_near_box(&segments, DVec2::ZERO, view.size)
+    } else {
+        segments
+    };
+    (can_be_shown && starts && !segments.is_empty() && (stroke.is_some() || path.fill.is_some()))
+        .then_some(PageItem::Path(Path { segments, stroke, fill: path.fill }))
 }
 
 /// A line without width is not drawn; dashes that make no sense give a solid line.

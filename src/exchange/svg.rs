@@ -259,7 +259,7 @@ fn write_item(svg: &mut String, item: &PageItem<'_>) {
             svg.push_str("/>\n");
         }
         PageItem::Text { at, text, size, color, anchor } => {
-            write_text(svg, *at, text, *size, *color, *anchor)
+            write_text(svg, *at, text, *size, *color, *anchor);
         }
         PageItem::Formula { at, layout, color } => write_formula(svg, *at, layout, *color),
     }

@@ -23,7 +23,7 @@ pub(super) enum Class {
 
 /// Space between neighbours in eighteenths of an em; negative entries are dropped in scripts.
 ///
-/// The table of *The TeXbook*, chapter 18, with rows and columns in the order of [`Class`].
+/// The table of *The `TeXbook`*, chapter 18, with rows and columns in the order of [`Class`].
 const SPACES: [[i8; 8]; 8] = [
     [0, 3, -4, -5, 0, 0, 0, -3],
     [3, 3, 0, -5, 0, 0, 0, -3],
