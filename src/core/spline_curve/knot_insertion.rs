@@ -79,9 +79,8 @@ impl<P: Point> Spline<P> {
         let first = -(n as isize) - 1;
         let last = count + 2 * n as isize + 2;
         let knots: Vec<f64> = (first..=last).filter_map(|k| space.knot(k)).collect();
-        let coefficients: Vec<P> = (first..last - n as isize)
-            .map(|k| self.coefficients()[k.rem_euclid(count) as usize])
-            .collect();
+        let coefficients: Vec<P> =
+            (first..last - n as isize).map(|k| self.coefficients()[k.rem_euclid(count) as usize]).collect();
         let end = space.knot(count + n as isize + 1).unwrap_or(f64::INFINITY);
         let copies = (0..)
             .map(|turn| period * f64::from(turn))
@@ -148,8 +147,7 @@ pub(super) fn insert_open<P: Point>(
     sorted: &[f64],
 ) -> (Vec<f64>, Vec<P>) {
     let (left, right) = (knots[degree], knots[coefficients.len()]);
-    let (mut knots, mut coefficients) =
-        insert_sorted(degree, knots, coefficients, sorted.iter().copied());
+    let (mut knots, mut coefficients) = insert_sorted(degree, knots, coefficients, sorted.iter().copied());
     let at_left = sorted.iter().filter(|&&s| s <= left).count();
     let at_right = sorted.iter().filter(|&&s| s >= right).count();
     knots.truncate(knots.len() - at_right);
@@ -258,7 +256,8 @@ mod tests {
             let start = knots[0];
             let space = SplineSpace::periodic(degree, period, knots.clone()).unwrap();
             let spline = Spline::new(space, coefficients).unwrap();
-            for s in [start, start + 0.3 * period, start + 0.5 * period, start + period, start - 2.2 * period] {
+            for s in [start, start + 0.3 * period, start + 0.5 * period, start + period, start - 2.2 * period]
+            {
                 let refined = match spline.insert_knot(s) {
                     Ok(refined) => refined,
                     Err(error) => {

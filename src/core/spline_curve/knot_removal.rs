@@ -149,8 +149,7 @@ fn remove_open<P: Point>(n: usize, knots: &mut Vec<f64>, coefficients: &mut Vec<
     knots.remove(last);
     // Of the remaining knots, the last one at or below s is number last − 1.
     let (k0, k1) = (last - n, last - multiplicity);
-    let gamma: Vec<f64> =
-        (k0..=k1).map(|k| (s - knots[k]) / (knots[k + n] - knots[k])).collect();
+    let gamma: Vec<f64> = (k0..=k1).map(|k| (s - knots[k]) / (knots[k + n] - knots[k])).collect();
     let mut y = vec![1.0];
     for j in 1..gamma.len() {
         y.push(-y[j - 1] * gamma[j - 1] / (1.0 - gamma[j]));
@@ -281,7 +280,10 @@ mod tests {
                     let t = period * f64::from(i) / 100.0;
                     let distance = (removal.spline.evaluate(t).unwrap() - spline.evaluate(t).unwrap()).abs();
                     let bound = removal.deviation + 1e-12;
-                    assert!(distance <= bound, "degree {degree}, {count}, s = {s}, t = {t}: {distance} > {bound}");
+                    assert!(
+                        distance <= bound,
+                        "degree {degree}, {count}, s = {s}, t = {t}: {distance} > {bound}"
+                    );
                 }
             }
         }

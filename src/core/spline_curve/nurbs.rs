@@ -83,8 +83,10 @@ impl<P: Projective> Nurbs<P> {
             // A construction changes at most a few neighbours between two that it keeps.
             let reach = old.len().min(next + 2 * self.degree() + 2);
             let kept = (next.min(reach)..reach).find(|&k| old[k] == coefficient);
-            let (point, weight) =
-                kept.map_or_else(|| P::project(coefficient), |k| (self.points.coefficients()[k], self.weights[k]));
+            let (point, weight) = kept.map_or_else(
+                || P::project(coefficient),
+                |k| (self.points.coefficients()[k], self.weights[k]),
+            );
             next = kept.map_or(next, |k| k + 1);
             points.push(point);
             weights.push(weight);
