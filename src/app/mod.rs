@@ -31,6 +31,8 @@ mod smoke_log;
 mod status_bar;
 mod stepper_panel;
 #[cfg(test)]
+mod test_bench;
+#[cfg(test)]
 mod test_lab;
 mod text_field;
 mod toolbar;

@@ -53,7 +53,7 @@ pub(crate) fn knots(lab: &Lab) -> Vec<f64> {
 /// A window of the given size with one panel in it.
 pub(crate) fn window(lab: Lab, size: (f32, f32), panel: fn(&mut Lab, &mut Ui)) -> Harness<'static, Lab> {
     let mut styled = false;
-    let mut harness = Harness::builder().with_size(vec2(size.0, size.1)).build_ui_state(
+    let mut harness = Harness::builder().with_size(vec2(size.0, size.1)).with_step_dt(0.1).build_ui_state(
         move |ui, lab: &mut Lab| {
             if !styled {
                 ui.ctx().set_fonts(look::fonts());
