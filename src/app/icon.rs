@@ -27,8 +27,6 @@ pub(crate) enum Icon {
     Up,
     /// Triangle down.
     Down,
-    /// Check mark.
-    Check,
 }
 
 /// A button with a sign, called `label` in tooltips and for screen readers.
@@ -75,10 +73,6 @@ pub(crate) fn paint(painter: &Painter, icon: Icon, rect: Rect, ink: Color32) {
         }
         Icon::Up => fill(&[(0.5, 0.2), (0.95, 0.8), (0.05, 0.8)]),
         Icon::Down => fill(&[(0.05, 0.2), (0.95, 0.2), (0.5, 0.8)]),
-        Icon::Check => {
-            painter
-                .add(Shape::line(vec![at(0.05, 0.55), at(0.4, 0.9), at(0.95, 0.1)], Stroke::new(1.8, ink)));
-        }
         Icon::Shown | Icon::Hidden => {
             let lid = |sign: f32| -> Vec<_> {
                 let shares = (0..=12).map(|i| i as f32 / 12.0);

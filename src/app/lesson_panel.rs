@@ -35,14 +35,25 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
         ui.label(RichText::new("Choose a lesson on the left, or with PageDown.").weak());
         return;
     };
+    let (mut restart, mut leave) = (false, false);
     ScrollArea::vertical().id_salt(("lesson", state.index)).auto_shrink([false, false]).show(ui, |ui| {
         ui.add_space(2.0);
         text(lab, ui, &state);
         ui.add_space(6.0);
         question(lab, ui, &mut state);
         ui.add_space(8.0);
+        ui.separator();
+        ui.horizontal_wrapped(|ui| {
+            restart = ui.button("Start again").on_hover_text("Show the lesson as it was at first").clicked();
+            leave = ui.button("Back to my document").on_hover_text("Close the lesson; work on it is kept").clicked();
+        });
     });
     lab.lesson = Some(state);
+    if restart {
+        files::restart_lesson(lab);
+    } else if leave {
+        files::back_to_document(lab);
+    }
 }
 
 fn text(lab: &mut Lab, ui: &mut Ui, state: &LessonState) {

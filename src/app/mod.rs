@@ -32,8 +32,6 @@ mod status_bar;
 mod stepper_panel;
 #[cfg(test)]
 mod test_bench;
-#[cfg(test)]
-mod test_lab;
 mod text_field;
 mod toolbar;
 mod window;

@@ -5,12 +5,11 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use glam::DVec2;
 
-use crate::app::lab::{Hovered, Lab, Selection, SidePage, StepperState, Tool};
+use crate::app::lab::Lab;
 use crate::app::look;
 use crate::core::bspline::SplineSpace;
 use crate::core::spline_curve::Nurbs;
-use crate::document::{CurveDisplay, Document, Edit, History, View};
-use crate::figure::theme::Theme;
+use crate::document::{CurveDisplay, Document, Edit, View, first_scene};
 
 /// A lab with the curve of degree 3 over the knots −1 0 0 0 1 2 3 4 4 4 5, selected.
 pub(crate) fn lab() -> Lab {
@@ -26,23 +25,15 @@ pub(crate) fn lab_with(curve: Nurbs<DVec2>) -> Lab {
     let mut document = Document::new();
     let edit = Edit::AddCurve { name: "Wave".to_owned(), curve, display: CurveDisplay::default() };
     let created = document.apply(&edit).unwrap().created;
-    Lab {
-        history: History::new(document),
-        view: View::default(),
-        path: None,
-        selection: Selection { object: created.first().copied(), ..Selection::default() },
-        hovered: Hovered::Nothing,
-        hovering: Hovered::Nothing,
-        tool: Tool::Select,
-        theme: Theme::light(),
-        side: SidePage::Inspector,
-        stepper: StepperState::default(),
-        lesson: None,
-        shape_note: None,
-        messages: Vec::new(),
-        commands: Vec::new(),
-        canvas_size: DVec2::new(800.0, 600.0),
-    }
+    let mut lab = Lab::new(document, View::default());
+    lab.selection.object = created.first().copied();
+    lab
+}
+
+/// The lab with the first scene.
+pub(crate) fn first_scene_lab() -> Lab {
+    let (document, view) = first_scene();
+    Lab::new(document, view)
 }
 
 /// The knots of the selected curve.

@@ -6,10 +6,17 @@ use crate::app::command::Command;
 use crate::app::lab::{Lab, Tool};
 use crate::document::{Content, CurveDisplay};
 
-/// Shows the tools; what they do is pushed to `lab.commands`.
-pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
+/// Shows the tabs of the workspaces and the tools; what they do is pushed to `lab.commands`.
+pub(crate) fn show(lab: &mut Lab, workspaces: &[&str], current: &mut usize, ui: &mut Ui) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
+        // One room needs no doors.
+        if workspaces.len() > 1 {
+            for (index, &name) in workspaces.iter().enumerate() {
+                ui.selectable_value(current, index, name);
+            }
+            ui.separator();
+        }
         toggle("Select", Command::SelectTool, lab.tool == Tool::Select, lab, ui);
         toggle("Draw", Command::DrawTool, lab.tool == Tool::Draw, lab, ui);
         ui.separator();

@@ -26,6 +26,8 @@ const SCALES: std::ops::RangeInclusive<f64> = 1e-12..=1e14;
 pub(crate) struct Canvas {
     rect: Option<Rect>,
     fitted: bool,
+    /// Which of the documents opened so far the camera was checked for.
+    opened: u64,
     gesture: Option<Gesture>,
     drawing: Drawing,
     menu_target: Target,
@@ -52,6 +54,11 @@ impl Canvas {
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Canvas"));
         self.rect = Some(rect);
         lab.canvas_size = DVec2::new(f64::from(rect.width()), f64::from(rect.height()));
+        if self.opened != lab.shelf.opened {
+            self.opened = lab.shelf.opened;
+            self.gesture = None;
+            self.fitted &= shows_everything(lab);
+        }
         if !self.fitted || !lab.view.camera.scale.is_finite() || lab.view.camera.scale <= 0.0 {
             self.fit(lab);
         }
@@ -260,6 +267,16 @@ impl Canvas {
         };
         ui.set_cursor_icon(icon);
     }
+}
+
+/// Whether the camera shows all control points.
+fn shows_everything(lab: &Lab) -> bool {
+    lab.history.document().bounding_box().is_none_or(|(low, high)| {
+        [low, high].into_iter().all(|corner| {
+            let page = viewport(lab).page_from_world(corner);
+            page.cmpge(DVec2::ZERO).all() && page.cmple(lab.canvas_size).all()
+        })
+    })
 }
 
 /// The camera as a viewport of the canvas.

@@ -89,7 +89,7 @@ pub(super) fn labels(curve: &Nurbs<DVec2>, display: &CurveDisplay, theme: &Theme
     let text = |k: usize| match display.labels {
         PointLabels::None => None,
         PointLabels::Index => Some((format!("c_{{{k}}}"), true)),
-        PointLabels::Weight => Some((format!("w_{{{k}}} = {}", short_number(curve.weights()[k])), true)),
+        PointLabels::Weight => Some((short_number(curve.weights()[k]), false)),
         PointLabels::Coordinates => {
             let point = curve.points()[k];
             Some((format!("({}, {})", short_number(point.x), short_number(point.y)), false))
