@@ -26,7 +26,9 @@ fn a_file_cut_off_anywhere_is_refused_with_line_and_column() {
             Err(FileError::Syntax { line, column, message }) => {
                 let expected = original[..end].lines().count().max(1);
                 assert!(line <= expected + 1 && line + 1 >= expected, "cut at {end}: line {line}, {expected}");
-                assert!(message.contains("ends too early"), "cut at {end}, column {column}: {message}");
+                let in_a_number = original[..end].ends_with(['-', '.', 'e']);
+                let known = message.contains("ends too early") || (in_a_number && message == "invalid number");
+                assert!(known, "cut at {end}, column {column}: {message}");
             }
             // A number cut in two is a number; what is missing is then found to be missing.
             Err(error) => panic!("cut at {end}: {error}"),

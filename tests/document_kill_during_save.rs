@@ -41,6 +41,18 @@ fn child_saves_until_it_is_killed() {
     }
 }
 
+/// Waits until the file has been replaced `count` times, or 2 seconds.
+fn wait_for_saves(path: &Path, count: u64) {
+    let stamp = || std::fs::metadata(path).and_then(|data| data.modified()).unwrap();
+    let (mut last, mut seen, until) = (stamp(), 0, Instant::now() + Duration::from_secs(2));
+    while seen < count && Instant::now() < until {
+        std::thread::sleep(Duration::from_micros(100));
+        let now = stamp();
+        seen += u64::from(now != last);
+        last = now;
+    }
+}
+
 #[test]
 fn killing_a_saving_process_leaves_one_of_both_documents_whole() {
     let folder = tempfile::tempdir().unwrap();
@@ -56,8 +68,9 @@ fn killing_a_saving_process_leaves_one_of_both_documents_whole() {
             .stderr(Stdio::null())
             .spawn()
             .unwrap();
-        // From before the first save to the middle of a later one.
-        std::thread::sleep(Duration::from_micros(1500 + round * 7919 % 9000));
+        // From before the first save to the middle of the third one.
+        wait_for_saves(&path, round % 3);
+        std::thread::sleep(Duration::from_micros(round * 7919 % 4000));
         child.kill().unwrap();
         child.wait().unwrap();
         let loaded = load(&path).unwrap_or_else(|error| panic!("round {round}: {error}"));
