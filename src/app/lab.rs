@@ -7,9 +7,10 @@ use std::path::PathBuf;
 use glam::DVec2;
 
 use crate::app::command::Command;
+use crate::app::sheet::{Sheet, Shelf};
 use crate::core::spline_curve::Nurbs;
 use crate::course::{Lesson, Stepper, Verdict};
-use crate::document::{Edit, EditError, History, ObjectId, Outcome, ShapeChange, View};
+use crate::document::{Document, Edit, EditError, History, ObjectId, Outcome, ShapeChange, View};
 use crate::figure::theme::Theme;
 
 /// What is selected: one object, and some of its control points or one of its knots.
@@ -114,6 +115,10 @@ pub struct Lab {
     pub view: View,
     /// Where the document was opened from or saved to.
     pub path: Option<PathBuf>,
+    /// Whether the document was brought back after a crash and has not been saved since.
+    pub brought_back: bool,
+    /// Documents that are put aside.
+    pub shelf: Shelf,
     /// The selection.
     pub selection: Selection,
     /// What was under the pointer in the last frame.
@@ -141,6 +146,53 @@ pub struct Lab {
 }
 
 impl Lab {
+    /// The lab with `document` on its desk.
+    pub fn new(document: Document, view: View) -> Self {
+        let sheet = Sheet::new(document, view, None);
+        Self {
+            history: sheet.history,
+            view: sheet.view,
+            path: sheet.path,
+            brought_back: sheet.brought_back,
+            shelf: Shelf::default(),
+            selection: sheet.selection,
+            hovered: Hovered::Nothing,
+            hovering: Hovered::Nothing,
+            tool: Tool::Select,
+            theme: Theme::light(),
+            side: SidePage::Inspector,
+            stepper: StepperState::default(),
+            lesson: None,
+            shape_note: None,
+            messages: Vec::new(),
+            commands: Vec::new(),
+            canvas_size: DVec2::new(800.0, 600.0),
+        }
+    }
+
+    /// Puts `sheet` on the desk and gives back what lay there.
+    pub fn put(&mut self, sheet: Sheet) -> Sheet {
+        self.commit();
+        self.hovered = Hovered::Nothing;
+        self.hovering = Hovered::Nothing;
+        self.tool = Tool::Select;
+        self.stepper = StepperState { open: self.stepper.open, ..StepperState::default() };
+        self.shape_note = None;
+        self.shelf.opened += 1;
+        Sheet {
+            history: std::mem::replace(&mut self.history, sheet.history),
+            view: std::mem::replace(&mut self.view, sheet.view),
+            path: std::mem::replace(&mut self.path, sheet.path),
+            selection: std::mem::replace(&mut self.selection, sheet.selection),
+            brought_back: std::mem::replace(&mut self.brought_back, sheet.brought_back),
+        }
+    }
+
+    /// Whether the document holds anything that is in no file.
+    pub fn is_modified(&self) -> bool {
+        self.brought_back || self.history.is_modified()
+    }
+
     /// The curve of the selected object.
     pub fn curve(&self) -> Option<&Nurbs<DVec2>> {
         self.selection.object.and_then(|id| self.history.document().curve(id))

@@ -4,8 +4,11 @@
 //! [`command::Command`] is everything that can be commanded, [`files`] opens, saves and keeps safe.
 
 pub mod command;
+pub mod directories;
 pub mod lab;
+pub mod sheet;
 
+mod command_state;
 mod curves;
 mod file_dialog;
 mod files;
@@ -19,11 +22,14 @@ mod number_field;
 mod object_list;
 mod painter;
 mod palette;
+mod path_dialog;
 mod preferences;
 mod shortcut_sheet;
 mod smoke_log;
 mod status_bar;
 mod stepper_panel;
+#[cfg(test)]
+mod test_lab;
 mod toolbar;
 mod window;
 mod workspace;

@@ -6,7 +6,7 @@ use eframe::egui::{self, Panel, Ui};
 
 use crate::app::command::Command;
 use crate::app::files::Files;
-use crate::app::lab::{Hovered, Lab, Selection, SidePage, StepperState, Tone, Tool};
+use crate::app::lab::{Lab, SidePage, Tone};
 use crate::app::palette::Palette;
 use crate::app::shortcut_sheet::ShortcutSheet;
 use crate::app::smoke_log::SmokeLog;
@@ -14,7 +14,7 @@ use crate::app::workspace::{self, Workspace};
 use crate::app::{
     LEFT_PANEL, RIGHT_PANEL, files, inspector, lesson_panel, look, menu_bar, object_list, status_bar, stepper_panel, toolbar,
 };
-use crate::document::{History, samples};
+use crate::document::samples;
 use crate::figure::theme::Theme;
 
 /// The program with its window.
@@ -58,24 +58,7 @@ impl LabApp {
         ctx.set_fonts(look::fonts());
         ctx.options_mut(|options| options.zoom_with_keyboard = false);
         let (document, view) = samples::first_scene();
-        let selected = view.selected_object.or_else(|| document.objects().first().map(|object| object.id));
-        let mut lab = Lab {
-            history: History::new(document),
-            view,
-            path: None,
-            selection: Selection { object: selected, ..Selection::default() },
-            hovered: Hovered::Nothing,
-            hovering: Hovered::Nothing,
-            tool: Tool::Select,
-            theme: Theme::light(),
-            side: SidePage::Inspector,
-            stepper: StepperState::default(),
-            lesson: None,
-            shape_note: None,
-            messages: Vec::new(),
-            commands: Vec::new(),
-            canvas_size: glam::DVec2::new(800.0, 600.0),
-        };
+        let mut lab = Lab::new(document, view);
         let files = Files::new(file, &mut lab);
         Self {
             lab,
@@ -110,7 +93,7 @@ impl LabApp {
         self.lab.tidy_selection();
         let busy = self.files.is_asking() || self.palette.is_open();
         Panel::top("menu").show(ui, |ui| {
-            menu_bar::show(&mut self.lab, &self.files, ui);
+            menu_bar::show(&mut self.lab, &mut self.files, ui);
             toolbar::show(&mut self.lab, ui);
         });
         Panel::bottom("status").show(ui, |ui| status_bar::show(&self.lab, ui));

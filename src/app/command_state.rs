@@ -1,0 +1,69 @@
+//! Whether a command can be carried out now, and whether what it switches is on. Menu and palette show both.
+
+use crate::app::command::Command;
+use crate::app::lab::{Lab, Tool};
+use crate::app::{KNOT_LINE, LEFT_PANEL, RIGHT_PANEL};
+use crate::document::{Content, CurveDisplay};
+use crate::figure::composition::GRID;
+
+/// Largest degree of a curve in the window.
+const HIGHEST_DEGREE: usize = 12;
+
+/// Whether `command` has something to work on.
+pub(crate) fn is_possible(command: Command, lab: &Lab) -> bool {
+    match command {
+        Command::Undo => lab.history.undo_name().is_some(),
+        Command::Redo => lab.history.redo_name().is_some(),
+        Command::ExportFigure => !lab.history.document().is_empty(),
+        Command::Delete | Command::Duplicate => lab.selection.object.is_some(),
+        Command::RemoveKnot => lab.curve().is_some() && lab.selection.knot.is_some(),
+        Command::ElevateDegree => lab.curve().is_some_and(|curve| curve.degree() < HIGHEST_DEGREE),
+        Command::ReduceDegree => lab.curve().is_some_and(|curve| curve.degree() > 1),
+        Command::ResetWeights => lab.curve().is_some_and(|curve| !curve.is_polynomial()),
+        Command::SelectAll
+        | Command::InsertKnot
+        | Command::RefineUniformly
+        | Command::ToggleClosed
+        | Command::Reverse
+        | Command::TogglePolygon
+        | Command::ToggleComb
+        | Command::ToggleConstruction
+        | Command::CycleLabels
+        | Command::ToggleHull
+        | Command::ToggleCircle
+        | Command::StepperPlay
+        | Command::StepForward
+        | Command::StepBack => lab.curve().is_some(),
+        _ => true,
+    }
+}
+
+/// Whether what `command` switches is on; `None` for a command that switches nothing.
+pub(crate) fn is_on(command: Command, lab: &Lab) -> Option<bool> {
+    let panel = |name: &str| lab.view.panels.get(name).copied().unwrap_or(true);
+    let display = |choice: fn(&CurveDisplay) -> bool| {
+        let object = lab.selection.object.and_then(|id| lab.history.document().object(id));
+        object.is_some_and(|object| {
+            let Content::Curve(_) = &object.content;
+            choice(&object.display)
+        })
+    };
+    Some(match command {
+        Command::SelectTool => lab.tool == Tool::Select,
+        Command::DrawTool => lab.tool == Tool::Draw,
+        Command::ToggleGrid => panel(GRID),
+        Command::TogglePolygon => display(|display| display.polygon),
+        Command::ToggleComb => display(|display| display.comb),
+        Command::ToggleConstruction => display(|display| display.construction),
+        Command::ToggleHull => display(|display| display.hull),
+        Command::ToggleCircle => display(|display| display.osculating_circle),
+        Command::ToggleLeftPanel => panel(LEFT_PANEL),
+        Command::ToggleRightPanel => panel(RIGHT_PANEL),
+        Command::ToggleKnotLine => panel(KNOT_LINE),
+        Command::LookLight => lab.theme.name == "light",
+        Command::LookDark => lab.theme.name == "dark",
+        Command::LookPresentation => lab.theme.name == "presentation",
+        Command::ToggleClosed => lab.curve().is_some_and(|curve| curve.space().is_periodic()),
+        _ => return None,
+    })
+}

@@ -1,0 +1,129 @@
+//! The shortcut sheet: all keys by menu, and what the mouse does.
+
+use eframe::egui::{self, Grid, Key, Modifiers, RichText, ScrollArea, Ui, Window};
+
+use crate::app::command::{Command, Menu};
+use crate::app::lab::Lab;
+
+/// What the mouse and the arrow keys do.
+const HANDS: [(&str, &str); 14] = [
+    ("Click", "Select; with Shift add to the selection"),
+    ("Drag a point or a knot", "Move it; Shift keeps to an axis, Ctrl snaps to the grid"),
+    ("Drag on empty ground", "Select what is inside the frame"),
+    ("Double click on a curve", "Insert a knot there, shape kept"),
+    ("Right click", "Menu of the thing under the pointer"),
+    ("Wheel", "Zoom at the pointer"),
+    ("Alt + wheel over a point", "Change its weight"),
+    ("Middle drag", "Pan"),
+    ("Space + drag", "Pan"),
+    ("Arrow keys", "Nudge the selected points"),
+    ("Shift + arrow keys", "Nudge by ten steps"),
+    ("Ctrl + arrow keys", "Nudge by a tenth of a step"),
+    ("Ctrl + Y", "Redo"),
+    ("Drop a file on the window", "Open it"),
+];
+
+/// The sheet; shut at first.
+#[derive(Debug, Default)]
+pub(crate) struct ShortcutSheet {
+    open: bool,
+}
+
+impl ShortcutSheet {
+    /// Opens or shuts it.
+    pub(crate) fn toggle(&mut self) {
+        self.open = !self.open;
+    }
+
+    /// Shows it if it is open.
+    pub(crate) fn show(&mut self, _lab: &Lab, ui: &mut Ui) {
+        if !self.open {
+            return;
+        }
+        if !ui.text_edit_focused() && ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
+            self.open = false;
+            return;
+        }
+        let room = ui.ctx().content_rect().size();
+        Window::new("Shortcuts")
+            .open(&mut self.open)
+            .collapsible(false)
+            .resizable(false)
+            .pivot(egui::Align2::CENTER_CENTER)
+            .default_pos(ui.ctx().content_rect().center())
+            .show(ui.ctx(), |ui| {
+                let wide = room.x > 860.0;
+                ui.set_width(if wide { 760.0 } else { 380.0_f32.min(room.x - 60.0) });
+                ScrollArea::vertical().max_height(room.y - 120.0).show(ui, |ui| {
+                    if wide {
+                        ui.columns(2, |columns| {
+                            for menu in [Menu::File, Menu::Edit, Menu::Curve] {
+                                keys(menu, &mut columns[0]);
+                            }
+                            hands(&mut columns[0]);
+                            for menu in [Menu::View, Menu::Lesson, Menu::Help] {
+                                keys(menu, &mut columns[1]);
+                            }
+                        });
+                    } else {
+                        Menu::ALL.into_iter().for_each(|menu| keys(menu, ui));
+                        hands(ui);
+                    }
+                });
+            });
+    }
+}
+
+fn keys(menu: Menu, ui: &mut Ui) {
+    let lines = Command::ALL.into_iter().filter(|command| command.menu() == menu).filter_map(|command| {
+        let shortcut = command.shortcut()?;
+        Some((ui.ctx().format_shortcut(&shortcut), command.text().0.trim_end_matches('…').to_owned()))
+    });
+    let lines: Vec<(String, String)> = lines.collect();
+    section(menu.title(), &lines, ui);
+}
+
+fn hands(ui: &mut Ui) {
+    let lines: Vec<(String, String)> = HANDS.iter().map(|&(hand, does)| (hand.to_owned(), does.to_owned())).collect();
+    section("Mouse and arrows", &lines, ui);
+}
+
+fn section(title: &str, lines: &[(String, String)], ui: &mut Ui) {
+    if lines.is_empty() {
+        return;
+    }
+    ui.add_space(6.0);
+    ui.label(RichText::new(title).heading());
+    ui.add_space(2.0);
+    Grid::new(title).num_columns(2).spacing([14.0, 3.0]).min_col_width(96.0).show(ui, |ui| {
+        for (key, does) in lines {
+            ui.label(RichText::new(key).weak());
+            ui.add(egui::Label::new(does).wrap());
+            ui.end_row();
+        }
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use egui_kittest::Harness;
+    use egui_kittest::kittest::Queryable as _;
+
+    use super::*;
+    use crate::app::test_lab::lab;
+
+    #[test]
+    fn every_command_with_a_key_is_on_the_sheet() {
+        let state = (ShortcutSheet { open: true }, lab());
+        let show = |ui: &mut Ui, state: &mut (ShortcutSheet, Lab)| state.0.show(&state.1, ui);
+        let mut harness = Harness::builder().with_size([1280.0, 1400.0]).build_ui_state(show, state);
+        harness.run();
+        for command in Command::ALL.into_iter().filter(|command| command.shortcut().is_some()) {
+            let name = command.text().0.trim_end_matches('…');
+            assert!(harness.query_all_by_label(name).count() > 0, "{name} is missing");
+        }
+        harness.key_press(Key::Escape);
+        harness.run();
+        assert!(!harness.state().0.open, "Escape leaves it open");
+    }
+}

@@ -1,0 +1,192 @@
+//! Files chosen by the ending of their names: which documents can be read, which figures can be written.
+
+use std::fs::File;
+use std::io::{self, Read as _, Write as _};
+#[cfg(unix)]
+use std::os::unix::std::fs::PermissionsExt as _;
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+use crate::document::{self, Document, EXTENSION, FileError, Saved, View};
+use crate::exchange::pdf::{PdfError, write_pdf};
+use crate::exchange::png::{PngError, write_png};
+use crate::exchange::svg::{SvgReadError, read_embedded_document, write_svg};
+use crate::figure::picture::{Picture, Viewport};
+
+/// Endings of figures, the usual one first.
+pub const FIGURE_ENDINGS: &[&str] = &["svg", "pdf", "png"];
+
+/// Largest SVG that is searched for a document, in bytes.
+const SVG_LIMIT: u64 = 256 << 20;
+
+/// Why a file could not be read or written. Every message names the file.
+#[derive(Debug, Error)]
+pub enum ByEndingError {
+    /// The ending says nothing that the lab could do.
+    #[error("{path}: the ending {ending:?} is not one of {supported}")]
+    UnknownEnding {
+        /// The file.
+        path: PathBuf,
+        /// Its ending; empty if it has none.
+        ending: String,
+        /// The endings that are possible here.
+        supported: String,
+    },
+    /// The file system said no.
+    #[error("{path}: {error}")]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What was said.
+        error: io::Error,
+    },
+    /// The file holds too much.
+    #[error("{path}: the file has {bytes} bytes, more than the limit {SVG_LIMIT}")]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// Its size.
+        bytes: u64,
+    },
+    /// The document cannot be read.
+    #[error("{path}: {error}")]
+    Document {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong and where.
+        error: FileError,
+    },
+    /// The SVG cannot be read or holds no document.
+    #[error("{path}: {error}")]
+    Svg {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong and where.
+        error: SvgReadError,
+    },
+    /// The figure cannot be written as PDF.
+    #[error(transparent)]
+    Pdf(#[from] PdfError),
+    /// The figure cannot be written as PNG.
+    #[error(transparent)]
+    Png(#[from] PngError),
+}
+
+/// What a figure is written as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FigureFormat {
+    /// Scalable Vector Graphics, with the document inside.
+    Svg,
+    /// Portable Document Format.
+    Pdf,
+    /// Portable Network Graphics.
+    Png,
+}
+
+impl FigureFormat {
+    /// The format that the ending of `path` names.
+    ///
+    /// # Errors
+    ///
+    /// [`ByEndingError::UnknownEnding`].
+    pub fn of(path: &Path) -> Result<Self, ByEndingError> {
+        match ending_of(path).as_str() {
+            "svg" => Ok(Self::Svg),
+            "pdf" => Ok(Self::Pdf),
+            "png" => Ok(Self::Png),
+            _ => Err(unknown_ending(path, FIGURE_ENDINGS)),
+        }
+    }
+}
+
+/// Whether `path` has the ending of a document of the lab.
+pub fn is_document(path: &Path) -> bool {
+    ending_of(path) == EXTENSION
+}
+
+/// Reads a document: a file of the lab, or an SVG with a document inside.
+///
+/// # Errors
+///
+/// [`ByEndingError`] with the file and, inside it, the place.
+pub fn read_document(path: &Path) -> Result<Saved, ByEndingError> {
+    match ending_of(path).as_str() {
+        EXTENSION => {
+            document::load(path).map_err(|error| ByEndingError::Document { path: path.to_owned(), error })
+        }
+        "svg" => {
+            let text = read_svg(path)?;
+            let json = read_embedded_document(&text)
+                .map_err(|error| ByEndingError::Svg { path: path.to_owned(), error })?;
+            document::from_json(&json).map_err(|error| ByEndingError::Document { path: path.to_owned(), error })
+        }
+        _ => Err(unknown_ending(path, &[EXTENSION, "svg"])),
+    }
+}
+
+/// The bytes of a figure. An SVG gets `document` and `view` inside; a PNG has `pixels_per_point` pixels to a point.
+///
+/// # Errors
+///
+/// [`ByEndingError::Pdf`] or [`ByEndingError::Png`] if the page is too large or too small.
+pub fn figure(
+    format: FigureFormat,
+    picture: &Picture,
+    viewport: &Viewport,
+    document: &Document,
+    view: &View,
+    pixels_per_point: f64,
+) -> Result<Vec<u8>, ByEndingError> {
+    Ok(match format {
+        FigureFormat::Svg => {
+            let json = document::to_json(document, view);
+            write_svg(picture, viewport, Some(&json)).into_bytes()
+        }
+        FigureFormat::Pdf => write_pdf(picture, viewport)?,
+        FigureFormat::Png => write_png(picture, viewport, pixels_per_point)?,
+    })
+}
+
+/// Writes `bytes` to `path`: all of them or, on an error, none.
+///
+/// # Errors
+///
+/// [`ByEndingError::Io`].
+pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), ByEndingError> {
+    let write = || -> io::Result<()> {
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let mut builder = tempfile::Builder::new();
+        // A temporary file is private; a figure is to be as readable as any new file.
+        #[cfg(unix)]
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
+        let mut beside = builder.tempfile_in(folder)?;
+        beside.write_all(bytes)?;
+        beside.as_file().sync_all()?;
+        beside.persist(path).map_err(|error| error.error)?;
+        Ok(())
+    };
+    write().map_err(|error| ByEndingError::Io { path: path.to_owned(), error })
+}
+
+fn read_svg(path: &Path) -> Result<String, ByEndingError> {
+    let said = |error| ByEndingError::Io { path: path.to_owned(), error };
+    let file = File::open(path).map_err(said)?;
+    let bytes = file.metadata().map_err(said)?.len();
+    if bytes > SVG_LIMIT {
+        return Err(ByEndingError::TooLarge { path: path.to_owned(), bytes });
+    }
+    let mut text = String::new();
+    // The limit holds too for a file that grows while it is read.
+    file.take(SVG_LIMIT).read_to_string(&mut text).map_err(said)?;
+    Ok(text)
+}
+
+fn ending_of(path: &Path) -> String {
+    path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default()
+}
+
+fn unknown_ending(path: &Path, supported: &[&str]) -> ByEndingError {
+    let supported = supported.iter().map(|ending| format!(".{ending}")).collect::<Vec<_>>().join(", ");
+    ByEndingError::UnknownEnding { path: path.to_owned(), ending: ending_of(path), supported }
+}
