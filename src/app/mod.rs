@@ -18,7 +18,9 @@ mod knot_line;
 mod lesson_panel;
 mod look;
 mod menu_bar;
+mod icon;
 mod number_field;
+mod number_text;
 mod object_list;
 mod painter;
 mod palette;
@@ -28,8 +30,12 @@ mod shortcut_sheet;
 mod smoke_log;
 mod status_bar;
 mod stepper_panel;
+<<<<<<< HEAD
 #[cfg(test)]
 mod test_lab;
+=======
+mod text_field;
+>>>>>>> app-shell
 mod toolbar;
 mod window;
 mod workspace;

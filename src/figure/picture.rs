@@ -137,6 +137,17 @@ pub enum Anchor {
     End,
 }
 
+impl Anchor {
+    /// The part of the text's width that lies left of its place: 0, ½ or 1.
+    pub const fn part_before(self) -> f64 {
+        match self {
+            Self::Start => 0.0,
+            Self::Middle => 0.5,
+            Self::End => 1.0,
+        }
+    }
+}
+
 /// A text of fixed size at a place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Label {

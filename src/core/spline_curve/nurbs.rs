@@ -61,6 +61,39 @@ impl<P: Projective> Nurbs<P> {
         Self::new(space, points, weights)
     }
 
+    /// Runs a construction on the control points if all weights are equal, else on the homogeneous spline.
+    ///
+    /// Control points that come out of the homogeneous construction with unchanged bits keep the Cartesian
+    /// coordinates and weights that were given.
+    pub(super) fn mapped(
+        &self,
+        on_points: impl FnOnce(&Spline<P>) -> Result<Spline<P>, SplineError>,
+        on_homogeneous: impl FnOnce(&Spline<P::Homogeneous>) -> Result<Spline<P::Homogeneous>, SplineError>,
+    ) -> Result<Self, SplineError> {
+        if self.is_polynomial() {
+            let (space, points) = on_points(&self.points)?.into_parts();
+            let weights = vec![self.weights[0]; points.len()];
+            return Self::new(space, points, weights);
+        }
+        let (space, lifted) = on_homogeneous(&self.homogeneous)?.into_parts();
+        let old = self.homogeneous.coefficients();
+        let mut next = 0;
+        let (mut points, mut weights) = (Vec::with_capacity(lifted.len()), Vec::with_capacity(lifted.len()));
+        for coefficient in lifted {
+            // A construction changes at most a few neighbours between two that it keeps.
+            let reach = old.len().min(next + 2 * self.degree() + 2);
+            let kept = (next.min(reach)..reach).find(|&k| old[k] == coefficient);
+            let (point, weight) = kept.map_or_else(
+                || P::project(coefficient),
+                |k| (self.points.coefficients()[k], self.weights[k]),
+            );
+            next = kept.map_or(next, |k| k + 1);
+            points.push(point);
+            weights.push(weight);
+        }
+        Self::new(space, points, weights)
+    }
+
     /// The space of the homogeneous spline.
     pub fn space(&self) -> &SplineSpace {
         self.points.space()

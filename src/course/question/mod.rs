@@ -1,0 +1,373 @@
+//! Questions that the mathematics of the core checks: never by comparing pictures, always for the curve as it is now.
+//!
+//! A [`Question`] has a prompt and a [`Task`] of one of three kinds: a number to type, a point to place, a curve to bend.
+//! [`Question::check`] computes the right answer from the document and gives a [`Verdict`]; a wrong answer gets a hint
+//! drawn from the fact that it violates.
+
+mod number;
+mod place_point;
+mod shape_goal;
+
+use glam::DVec2;
+use serde::Deserialize;
+
+use crate::core::spline_curve::Nurbs;
+use crate::course::number_text::parse_number;
+use crate::course::stepper::{Entry, Stepper, de_boor_stepper};
+use crate::document::{Document, ObjectId};
+
+pub use number::{Axis, Quantity};
+pub use shape_goal::Goal;
+
+/// A question of a lesson.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Question {
+    /// What is asked; may contain formulas between dollar signs.
+    pub prompt: String,
+    /// Number of the object in the lesson's document that the question is about.
+    pub object: u64,
+    /// What is to be done.
+    pub task: Task,
+    /// Said when the answer is right; may contain formulas between dollar signs.
+    pub feedback: String,
+}
+
+/// What is to be done.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Task {
+    /// Type a number.
+    Number {
+        /// The number that the core computes.
+        quantity: Quantity,
+        /// The largest difference that counts as right, in the unit of the number.
+        tolerance: f64,
+    },
+    /// Place the point `pⁱₖ` of de Boor's scheme.
+    PlacePoint {
+        /// The parameter.
+        parameter: f64,
+        /// The level `i`.
+        level: usize,
+        /// The index `k`.
+        index: usize,
+        /// The largest distance that counts as right, as a share of the polygon's size.
+        tolerance: f64,
+    },
+    /// Bend the curve until it meets a goal.
+    Shape {
+        /// The goal.
+        goal: Goal,
+    },
+}
+
+/// What the learner answers.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Answer {
+    /// A typed number: decimal point or comma, or a fraction.
+    Text(String),
+    /// A point placed in the plane.
+    Point(DVec2),
+    /// The curve in the document is the answer.
+    Curve,
+}
+
+/// The judgement of an answer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Verdict {
+    /// Whether the answer is right.
+    pub correct: bool,
+    /// What was measured: the difference from the right number, the distance from the right point as a share of the
+    /// polygon's size, or the quantity of the goal. `None` if nothing could be measured.
+    pub measured: Option<f64>,
+    /// What to say: praise with the fact behind it, or a hint. May contain formulas between dollar signs.
+    pub message: String,
+}
+
+impl Verdict {
+    fn right(measured: f64, message: impl Into<String>) -> Self {
+        Self { correct: true, measured: Some(measured), message: message.into() }
+    }
+
+    fn wrong(measured: Option<f64>, message: impl Into<String>) -> Self {
+        Self { correct: false, measured, message: message.into() }
+    }
+}
+
+impl Question {
+    /// Judges `answer` for the curve in `document` as it is now.
+    ///
+    /// An answer of the wrong kind, or a document without the curve, gets a verdict that says so.
+    pub fn check(&self, document: &Document, answer: &Answer) -> Verdict {
+        let Some(curve) = document.curve(ObjectId(self.object)) else {
+            return Verdict::wrong(None, "The curve of this question is gone. Open the lesson again.");
+        };
+        match (&self.task, answer) {
+            (Task::Number { quantity, tolerance }, Answer::Text(text)) => match parse_number(text) {
+                Ok(value) => number::check(curve, quantity, *tolerance, value, &self.feedback),
+                Err(error) => Verdict::wrong(None, sentence(&error.to_string())),
+            },
+            (Task::PlacePoint { parameter, level, index, tolerance }, Answer::Point(point)) => {
+                let wanted = place_point::Wanted { parameter: *parameter, level: *level, index: *index };
+                place_point::check(curve, wanted, *tolerance, *point, &self.feedback)
+            }
+            (Task::Shape { goal }, _) => shape_goal::check(document, curve, goal, &self.feedback),
+            (Task::Number { .. }, _) => Verdict::wrong(None, "Type a number."),
+            (Task::PlacePoint { .. }, _) => Verdict::wrong(None, "Place the point in the picture."),
+        }
+    }
+
+    /// The right number of a [`Task::Number`] for the curve in `document`; `None` for other kinds or if it is undefined.
+    pub fn right_number(&self, document: &Document) -> Option<f64> {
+        let curve = document.curve(ObjectId(self.object))?;
+        match &self.task {
+            Task::Number { quantity, .. } => quantity.compute(curve).ok(),
+            _ => None,
+        }
+    }
+}
+
+/// De Boor's scheme at `parameter` and in it the entry `p_index^level`.
+fn find_entry(
+    curve: &Nurbs<DVec2>,
+    parameter: f64,
+    level: usize,
+    index: usize,
+) -> Result<(Stepper, Entry), String> {
+    let stepper = de_boor_stepper(curve, parameter).map_err(|error| sentence(&error.to_string()))?;
+    let entry = stepper.table().find(|entry| entry.level == level && entry.index == index).cloned();
+    match entry {
+        Some(entry) => Ok((stepper, entry)),
+        None => Err(format!(
+            "The curve has changed: at this parameter there is no point $p_{{{index}}}^{{{level}}}$ any more. Open the \
+             lesson again."
+        )),
+    }
+}
+
+/// The two parents of an entry above level 0.
+fn parents<'a>(stepper: &'a Stepper, entry: &Entry) -> Option<(&'a Entry, &'a Entry)> {
+    let below = entry.level.checked_sub(1)?;
+    Some((stepper.entry(below, entry.position)?, stepper.entry(below, entry.position + 1)?))
+}
+
+/// Diagonal of the bounding box of the control points.
+fn polygon_size(curve: &Nurbs<DVec2>) -> f64 {
+    let first = curve.points().first().copied().unwrap_or(DVec2::ZERO);
+    let (low, high) =
+        curve.points().iter().fold((first, first), |(low, high), &point| (low.min(point), high.max(point)));
+    (high - low).length()
+}
+
+/// `text` with a capital letter and a full stop.
+fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    let first: String = letters.next().map(|c| c.to_uppercase().collect()).unwrap_or_default();
+    format!("{first}{}.", letters.as_str())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::core::bspline::SplineSpace;
+    use crate::document::Edit;
+
+    const KNOTS: [f64; 11] = [0.0, 0.0, 0.0, 1.0, 4.0, 6.0, 7.0, 8.0, 8.0, 8.0, 9.0];
+    const HEIGHTS: [f64; 7] = [-3.0, 1.0, -5.0, 4.0, 4.0, -7.0, 9.0];
+
+    fn graph(knots: &[f64], heights: &[f64]) -> Nurbs<DVec2> {
+        let space = SplineSpace::new(3, knots.to_vec()).unwrap();
+        let points =
+            space.greville_abscissae().into_iter().zip(heights.iter().copied()).map(DVec2::from).collect();
+        Nurbs::polynomial(space, points).unwrap()
+    }
+
+    /// A document with the graph of the spline of example 4.5-a, and the number of its object.
+    fn document() -> (Document, u64) {
+        document_of(graph(&KNOTS, &HEIGHTS))
+    }
+
+    fn document_of(curve: Nurbs<DVec2>) -> (Document, u64) {
+        let mut document = Document::new();
+        let edit = Edit::AddCurve { name: "Graph".into(), curve, display: Default::default() };
+        let created = document.apply(&edit).unwrap().created;
+        (document, created[0].0)
+    }
+
+    fn question(object: u64, task: Task) -> Question {
+        Question { prompt: String::new(), object, task, feedback: "Right.".into() }
+    }
+
+    fn number(object: u64, quantity: Quantity) -> Question {
+        question(object, Task::Number { quantity, tolerance: 0.005 })
+    }
+
+    fn ask(question: &Question, document: &Document, text: &str) -> Verdict {
+        question.check(document, &Answer::Text(text.into()))
+    }
+
+    fn entry(object: u64, level: usize, index: usize) -> Question {
+        number(object, Quantity::Entry { parameter: 5.0, level, index, axis: Axis::Y })
+    }
+
+    #[test]
+    fn right_numbers_are_those_of_the_worked_example() {
+        let (document, object) = document();
+        let rows = [vec![1.0, -5.0, 4.0, 4.0], vec![-4.0, 1.0, 4.0], vec![0.0, 2.0], vec![1.0]];
+        for (level, row) in rows.iter().enumerate() {
+            for (j, expected) in row.iter().enumerate() {
+                let found = entry(object, level, 1 + level + j).right_number(&document).unwrap();
+                assert!(
+                    (found - expected).abs() < 1e-14,
+                    "level {level}, entry {j}: {found} instead of {expected}"
+                );
+            }
+        }
+        for (quantity, expected) in [
+            (Quantity::Share { parameter: 5.0, level: 1, index: 2 }, 5.0 / 6.0),
+            (Quantity::Point { parameter: 4.0, axis: Axis::Y }, -1.5),
+            (Quantity::Derivative { parameter: 5.0, axis: Axis::Y }, 3.0),
+            (Quantity::Steps { parameter: 4.0 }, 2.0),
+            (Quantity::Steps { parameter: 5.0 }, 3.0),
+        ] {
+            let found = number(object, quantity).right_number(&document).unwrap();
+            assert!((found - expected).abs() < 1e-13, "{quantity:?}: {found} instead of {expected}");
+        }
+    }
+
+    #[test]
+    fn fractions_and_decimal_commas_are_accepted() {
+        let (document, object) = document();
+        let share = number(object, Quantity::Share { parameter: 5.0, level: 1, index: 2 });
+        for text in ["5/6", "0.8333", "0,833", " 10 / 12 "] {
+            let verdict = ask(&share, &document, text);
+            assert!(verdict.correct && verdict.message == "Right.", "{text:?}: {verdict:?}");
+        }
+        assert!(!ask(&share, &document, "0.84").correct, "beyond the tolerance");
+        let verdict = ask(&share, &document, "five sixths");
+        assert!(!verdict.correct && verdict.message.contains("five sixths"), "{verdict:?}");
+    }
+
+    #[test]
+    fn hints_name_the_violated_fact() {
+        let (document, object) = document();
+        let question = entry(object, 2, 4);
+        for (text, fact) in
+            [("3", "exchanged"), ("7", "lies between them"), ("1", "That is $p_3^1$"), ("2.5", "0.3333")]
+        {
+            let verdict = ask(&question, &document, text);
+            assert!(!verdict.correct && verdict.message.contains(fact), "{text}: {verdict:?}");
+        }
+        let share = number(object, Quantity::Share { parameter: 5.0, level: 1, index: 2 });
+        for (text, fact) in [("1/6", "$1-\\gamma$"), ("1.2", "between 0 and 1"), ("0.5", "left knot")] {
+            let verdict = ask(&share, &document, text);
+            assert!(!verdict.correct && verdict.message.contains(fact), "{text}: {verdict:?}");
+        }
+        let steps = number(object, Quantity::Steps { parameter: 4.0 });
+        assert!(ask(&steps, &document, "3").message.contains("degree is 3"), "steps");
+        let point = number(object, Quantity::Point { parameter: 5.0, axis: Axis::Y });
+        assert!(ask(&point, &document, "4.5").message.contains("between -5 and 4"), "hull");
+        let slope = number(object, Quantity::Derivative { parameter: 5.0, axis: Axis::Y });
+        assert!(ask(&slope, &document, "-3").message.contains("sign"), "sign of the slope");
+    }
+
+    #[test]
+    fn the_answer_follows_the_curve_as_it_is_now() {
+        let (mut document, object) = document();
+        let mut heights = HEIGHTS;
+        heights[4] = 7.0;
+        let edit = Edit::ReplaceCurve {
+            object: ObjectId(object),
+            curve: graph(&KNOTS, &heights),
+            label: "Lift".into(),
+        };
+        document.apply(&edit).unwrap();
+        // p_4^1 = 3/4*4 + 1/4*7, p_4^2 = 2/3*1 + 1/3*p_4^1
+        let expected = 2.0 / 3.0 + 4.75 / 3.0;
+        assert!(ask(&entry(object, 2, 4), &document, &expected.to_string()).correct, "{expected}");
+        assert!(!ask(&entry(object, 2, 4), &document, "2").correct, "the old number");
+    }
+
+    #[test]
+    fn a_placed_point_is_judged_by_its_distance() {
+        let (document, object) = document();
+        let (_, right) = find_entry(document.curve(ObjectId(object)).unwrap(), 5.0, 2, 4).unwrap();
+        let right = right.point().unwrap();
+        let task = Task::PlacePoint { parameter: 5.0, level: 2, index: 4, tolerance: 0.02 };
+        let question = question(object, task);
+        let verdict = question.check(&document, &Answer::Point(right + DVec2::new(0.1, 0.0)));
+        let size = polygon_size(document.curve(ObjectId(object)).unwrap());
+        assert!(verdict.correct, "{verdict:?}");
+        assert!((verdict.measured.unwrap() - 0.1 / size).abs() < 1e-12, "{verdict:?}");
+        let beside = question.check(&document, &Answer::Point(right + DVec2::new(3.0, -3.0)));
+        assert!(!beside.correct && beside.message.contains("beside"), "{beside:?}");
+    }
+
+    #[test]
+    fn a_corner_needs_a_knot_as_often_as_the_degree() {
+        let goal = |object| question(object, Task::Shape { goal: Goal::Corner { at: 4.0 } });
+        let (simple, object) = document();
+        let verdict = goal(object).check(&simple, &Answer::Curve);
+        assert!(!verdict.correct && verdict.message.contains("once"), "{verdict:?}");
+        let triple = [0.0, 0.0, 0.0, 1.0, 4.0, 4.0, 4.0, 7.0, 8.0, 9.0, 10.0];
+        let (cornered, object) = document_of(graph(&triple, &HEIGHTS));
+        assert!(goal(object).check(&cornered, &Answer::Curve).correct, "the polygon bends at c_3");
+        // Heights on one line leave the graph straight in spite of the triple knot.
+        let line = SplineSpace::new(3, triple.to_vec()).unwrap().greville_abscissae();
+        let (straight, object) = document_of(graph(&triple, &line));
+        assert!(!goal(object).check(&straight, &Answer::Curve).correct, "a straight line has no corner");
+    }
+
+    #[test]
+    fn passing_through_a_point_is_measured_to_the_curve() {
+        let (document, object) = document();
+        let curve = document.curve(ObjectId(object)).unwrap();
+        let on_it = curve.evaluate(2.345).unwrap();
+        let through = |point: DVec2| {
+            let goal = Goal::PassThrough { point: point.to_array(), tolerance: 1e-9 };
+            question(object, Task::Shape { goal }).check(&document, &Answer::Curve)
+        };
+        let verdict = through(on_it);
+        assert!(verdict.correct, "{verdict:?}");
+        let end = curve.evaluate(8.0).unwrap();
+        let verdict = through(end + DVec2::new(0.0, 2.0));
+        let expected = 2.0 / polygon_size(curve);
+        assert!(!verdict.correct && verdict.measured.unwrap() <= expected + 1e-12, "{verdict:?}");
+    }
+
+    #[test]
+    fn a_curve_follows_itself_and_not_another() {
+        let (mut document, first) = document();
+        let mut heights = HEIGHTS;
+        heights[2] += 1.0;
+        let edit = Edit::AddCurve {
+            name: "Other".into(),
+            curve: graph(&KNOTS, &heights),
+            display: Default::default(),
+        };
+        let second = document.apply(&edit).unwrap().created[0].0;
+        let follow = |reference, tolerance| {
+            let goal = Goal::Follow { reference, tolerance };
+            question(first, Task::Shape { goal }).check(&document, &Answer::Curve)
+        };
+        assert!(follow(first, 1e-12).correct, "itself");
+        let other = follow(second, 0.01);
+        assert!(
+            !other.correct && other.measured.unwrap() < 1.0 / polygon_size(&graph(&KNOTS, &heights)),
+            "{other:?}"
+        );
+        assert!(!follow(99, 0.01).correct, "a curve that is not there");
+    }
+
+    #[test]
+    fn nothing_to_judge_is_said_and_does_not_panic() {
+        let (document, object) = document();
+        let question = entry(object, 2, 4);
+        assert!(question.check(&document, &Answer::Curve).message.contains("number"), "wrong kind of answer");
+        assert!(ask(&entry(99, 2, 4), &document, "2").message.contains("gone"), "no such object");
+        assert!(ask(&entry(object, 9, 4), &document, "2").message.contains("changed"), "no such entry");
+        let outside = number(object, Quantity::Point { parameter: 99.0, axis: Axis::X });
+        assert!(ask(&outside, &document, "2").message.contains("99"), "outside the interval");
+    }
+}

@@ -1,0 +1,59 @@
+//! Edits of the degree.
+
+use crate::core::bspline::{SplineError, SplineSpace};
+use crate::core::spline_curve::Nurbs;
+use crate::document::apply::knots::changed;
+use crate::document::apply::parametrization::{uniform_open, uniform_periodic};
+use crate::document::contents::Document;
+use crate::document::edit::{EditError, MAX_EDIT_DEGREE, Outcome, ShapeChange};
+use crate::document::object::ObjectId;
+
+pub(super) fn elevate(document: &mut Document, object: ObjectId) -> Result<Outcome, EditError> {
+    document.curve_of(object)?;
+    Err(EditError::Unavailable { edit: "Raise degree".to_owned(), reason: "degree elevation is missing" })
+}
+
+pub(super) fn reduce(document: &mut Document, object: ObjectId) -> Result<Outcome, EditError> {
+    document.curve_of(object)?;
+    Err(EditError::Unavailable { edit: "Lower degree".to_owned(), reason: "degree reduction is missing" })
+}
+
+/// Same control points, uniform knots over the same interval. An open curve that does not interpolate its end points
+/// keeps simple end knots.
+pub(super) fn set(document: &mut Document, object: ObjectId, degree: usize) -> Result<Outcome, EditError> {
+    if !(1..=MAX_EDIT_DEGREE).contains(&degree) {
+        return Err(EditError::DegreeOutsideWindow { degree });
+    }
+    document.change_curve(object, |curve| {
+        if degree == curve.degree() {
+            return Ok((curve.clone(), ShapeChange::None));
+        }
+        let (old, count) = (curve.space(), curve.points().len());
+        let (left, right) = old.parameter_interval();
+        if let Some(period) = old.period() {
+            let space = uniform_periodic(degree, count, left, period)?;
+            let new = Nurbs::new(space, curve.points().to_vec(), curve.weights().to_vec())?;
+            let shape = changed(curve, &new);
+            return Ok((new, shape));
+        }
+        if count < degree + 1 {
+            let (what, expected) = ("control points", degree + 1);
+            return Err(SplineError::SizeMismatch { what, expected, found: count }.into());
+        }
+        let clamped = old.multiplicity(left) == old.degree() && old.multiplicity(right) == old.degree();
+        let space =
+            if clamped { uniform_open(degree, count, left, right)? } else { simple_uniform(degree, count, left, right)? };
+        let new = Nurbs::new(space, curve.points().to_vec(), curve.weights().to_vec())?;
+        let shape = changed(curve, &new);
+        Ok((new, shape))
+    })
+}
+
+fn simple_uniform(degree: usize, count: usize, left: f64, right: f64) -> Result<SplineSpace, EditError> {
+    let intervals = (count - degree) as f64;
+    let step = (right - left) / intervals;
+    let knots = (0..=count + degree).map(|k| {
+        if k == count { right } else { left + step * (k as f64 - degree as f64) }
+    });
+    Ok(SplineSpace::new(degree, knots.collect())?)
+}

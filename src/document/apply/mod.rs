@@ -1,0 +1,192 @@
+//! Carrying out edits. Every edit works on a copy of the document, so that a failing one leaves nothing behind.
+
+mod curve_points;
+mod degree;
+mod knots;
+mod objects;
+mod parametrization;
+
+pub(in crate::document) use objects::check_name;
+
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use crate::core::spline_curve::Nurbs;
+use crate::document::contents::Document;
+use crate::document::edit::{Edit, EditError, Outcome, ShapeChange};
+use crate::document::object::{Content, Object, ObjectId};
+
+/// The largest number of control points of one curve that edits and files may make.
+pub(in crate::document) const MAX_POINTS: usize = 100_000;
+/// The largest number of objects of a document.
+pub(in crate::document) const MAX_OBJECTS: usize = 10_000;
+
+/// The largest number of an object: all programs that read JSON know whole numbers up to 2⁵³.
+pub(in crate::document) const MAX_ID: u64 = (1 << 53) - 1;
+
+/// How deep batches may be nested: deeper ones come from faulty programs, and recursion has to end before the stack.
+const MAX_BATCH_DEPTH: usize = 64;
+
+impl Document {
+    /// Carries out `edit`.
+    ///
+    /// # Errors
+    ///
+    /// An [`EditError`]; the document is then unchanged.
+    pub fn apply(&mut self, edit: &Edit) -> Result<Outcome, EditError> {
+        let mut changed = self.clone();
+        let outcome = changed.carry_out(edit, 0)?;
+        *self = changed;
+        Ok(outcome)
+    }
+
+    fn carry_out(&mut self, edit: &Edit, depth: usize) -> Result<Outcome, EditError> {
+        match edit {
+            Edit::AddCurve { name, curve, display } => objects::add_curve(self, name, curve, display),
+            Edit::RemoveObjects { objects } => objects::remove(self, objects),
+            Edit::DuplicateObject { object } => objects::duplicate(self, *object),
+            Edit::RenameObject { object, name } => objects::rename(self, *object, name),
+            Edit::ReorderObject { object, to } => objects::reorder(self, *object, *to),
+            Edit::SetVisible { object, visible } => {
+                self.change(*object, |found| {
+                    found.visible = *visible;
+                    Ok(ShapeChange::None)
+                })
+            }
+            Edit::SetDisplay { object, display } => {
+                display.check()?;
+                self.change(*object, |found| {
+                    found.display = display.clone();
+                    Ok(ShapeChange::None)
+                })
+            }
+            Edit::MovePoints { object, points, delta } => {
+                curve_points::move_points(self, *object, points, *delta)
+            }
+            Edit::SetPoint { object, point, position } => {
+                curve_points::set_point(self, *object, *point, *position)
+            }
+            Edit::SetPoints { object, positions } => curve_points::set_points(self, *object, positions),
+            Edit::SetWeight { object, point, weight } => {
+                curve_points::set_weight(self, *object, *point, *weight)
+            }
+            Edit::SetWeights { object, weights } => self.change_curve(*object, |curve| {
+                let new = Nurbs::new(curve.space().clone(), curve.points().to_vec(), weights.clone())?;
+                Ok((new, ShapeChange::None))
+            }),
+            Edit::TransformPoints { object, points, matrix, about } => {
+                curve_points::transform(self, *object, points, *matrix, *about)
+            }
+            Edit::InsertPoint { object, before, position } => {
+                curve_points::insert_point(self, *object, *before, *position)
+            }
+            Edit::AppendPoint { object, position } => {
+                let count = self.curve_of(*object)?.points().len();
+                curve_points::insert_point(self, *object, count, *position)
+            }
+            Edit::DeletePoints { object, points } => curve_points::delete_points(self, *object, points),
+            Edit::InsertKnot { object, at } => knots::insert(self, *object, *at),
+            Edit::RemoveKnot { object, at } => knots::remove(self, *object, *at),
+            Edit::RefineUniformly { object } => knots::refine_uniformly(self, *object),
+            Edit::MoveKnot { object, knot, to } => knots::move_copy(self, *object, *knot, *to),
+            Edit::MoveDistinctKnot { object, at, to } => knots::move_distinct(self, *object, *at, *to),
+            Edit::SetKnots { object, knots } => knots::set(self, *object, knots),
+            Edit::ElevateDegree { object } => degree::elevate(self, *object),
+            Edit::ReduceDegree { object } => degree::reduce(self, *object),
+            Edit::SetDegree { object, degree } => degree::set(self, *object, *degree),
+            Edit::SetClosed { object, closed: true } => parametrization::close(self, *object),
+            Edit::SetClosed { object, closed: false } => parametrization::open(self, *object),
+            Edit::Reverse { object } => self.change_curve(*object, |curve| {
+                Ok((parametrization::reversed(curve)?, ShapeChange::None))
+            }),
+            Edit::ReplaceCurve { object, curve, .. } => {
+                check_point_count(curve.points().len())?;
+                self.change_curve(*object, |old| {
+                    let change = knots::changed(old, curve);
+                    Ok((curve.clone(), change))
+                })
+            }
+            Edit::Batch { edits, .. } => self.carry_out_all(edits, depth),
+        }
+    }
+
+    fn carry_out_all(&mut self, edits: &[Edit], depth: usize) -> Result<Outcome, EditError> {
+        if depth >= MAX_BATCH_DEPTH {
+            return Err(EditError::TooMany { what: "nested batches", value: depth + 1, limit: MAX_BATCH_DEPTH });
+        }
+        let mut all = Outcome { shape: ShapeChange::None, created: Vec::new() };
+        for (index, edit) in edits.iter().enumerate() {
+            let done = self
+                .carry_out(edit, depth + 1)
+                .map_err(|error| EditError::InBatch { index, source: Box::new(error) })?;
+            all.shape = all.shape.and(done.shape);
+            all.created.extend(done.created);
+        }
+        // An object that a later edit of the batch removed again was not created.
+        all.created.retain(|id| self.position(*id).is_some());
+        Ok(all)
+    }
+
+    fn curve_of(&self, id: ObjectId) -> Result<&Nurbs<DVec2>, EditError> {
+        self.curve(id).ok_or(EditError::NoSuchObject { object: id })
+    }
+
+    /// Changes one object through `change`; the others stay shared.
+    fn change(
+        &mut self,
+        id: ObjectId,
+        change: impl FnOnce(&mut Object) -> Result<ShapeChange, EditError>,
+    ) -> Result<Outcome, EditError> {
+        let position = self.position(id).ok_or(EditError::NoSuchObject { object: id })?;
+        let mut object = Object::clone(&self.objects[position]);
+        let shape = change(&mut object)?;
+        self.objects[position] = Arc::new(object);
+        Ok(Outcome { shape, created: Vec::new() })
+    }
+
+    /// Puts the curve that `change` makes in place of the old one.
+    fn change_curve(
+        &mut self,
+        id: ObjectId,
+        change: impl FnOnce(&Nurbs<DVec2>) -> Result<(Nurbs<DVec2>, ShapeChange), EditError>,
+    ) -> Result<Outcome, EditError> {
+        self.change(id, |object| {
+            let Content::Curve(curve) = &object.content;
+            let (curve, shape) = change(curve)?;
+            check_point_count(curve.points().len())?;
+            object.content = Content::Curve(curve);
+            Ok(shape)
+        })
+    }
+}
+
+impl ShapeChange {
+    /// Both changes one after the other: deviations add up, a change outweighs keeping, and keeping silence.
+    fn and(self, then: Self) -> Self {
+        match (self, then) {
+            (Self::None, other) | (other, Self::None) => other,
+            (Self::Kept { deviation: a }, Self::Kept { deviation: b }) => Self::Kept { deviation: a + b },
+            // The places of both largest distances say nothing about that of the sum.
+            (a, b) => Self::Changed {
+                deviation: a.deviation().zip(b.deviation()).map(|(a, b)| a + b),
+                at: None,
+            },
+        }
+    }
+
+    fn deviation(self) -> Option<f64> {
+        match self {
+            Self::None => Some(0.0),
+            Self::Kept { deviation } => Some(deviation),
+            Self::Changed { deviation, .. } => deviation,
+        }
+    }
+}
+
+fn check_point_count(count: usize) -> Result<(), EditError> {
+    if count > MAX_POINTS {
+        return Err(EditError::TooMany { what: "control points", value: count, limit: MAX_POINTS });
+    }
+    Ok(())
+}

@@ -1,0 +1,102 @@
+//! How a curve is shown.
+
+use serde::{Deserialize, Serialize};
+
+use crate::core::bspline::SplineError;
+
+/// What is drawn of a curve, and how.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct CurveDisplay {
+    /// Index into the palette of object colours; a palette with `N` entries uses `color mod N`.
+    pub color: usize,
+    /// Line width in pt, more than 0 and at most [`CurveDisplay::MAX_WIDTH`].
+    pub width: f64,
+    /// The control polygon.
+    pub polygon: bool,
+    /// The control points.
+    pub points: bool,
+    /// What is written beside the control points.
+    pub labels: PointLabels,
+    /// The points of the curve at the knots.
+    pub knots: bool,
+    /// The curvature comb.
+    pub comb: bool,
+    /// World length of a tooth per unit of curvature; positive values put left turns' teeth on the right of the curve.
+    pub comb_scale: f64,
+    /// Number of teeth per knot interval, from 1 to [`CurveDisplay::MAX_TEETH`].
+    pub comb_teeth: usize,
+    /// De Boor's construction at the parameter t.
+    pub construction: bool,
+    /// The convex hull of the control points that are active at t.
+    pub hull: bool,
+    /// The osculating circle at t.
+    pub osculating_circle: bool,
+    /// The polynomial pieces in alternating colours.
+    pub pieces: bool,
+}
+
+/// What is written beside the control points.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PointLabels {
+    /// Nothing.
+    #[default]
+    None,
+    /// The index k.
+    Index,
+    /// The weight.
+    Weight,
+    /// Both coordinates.
+    Coordinates,
+}
+
+impl CurveDisplay {
+    /// The widest line in pt: wider ones hide what they show.
+    pub const MAX_WIDTH: f64 = 100.0;
+    /// The most teeth of a comb per knot interval.
+    pub const MAX_TEETH: usize = 1000;
+
+    /// Checks the numbers.
+    ///
+    /// # Errors
+    ///
+    /// `NonFinite`; `NoSolution` for a width or a number of teeth that cannot be drawn. The name of the field is in the
+    /// message.
+    pub fn check(&self) -> Result<(), SplineError> {
+        for (what, value) in [("width", self.width), ("comb_scale", self.comb_scale)] {
+            if !value.is_finite() {
+                return Err(SplineError::NonFinite { what, index: 0, value });
+            }
+        }
+        if self.width <= 0.0 || self.width > Self::MAX_WIDTH {
+            let reason = format!("width is {}; it must be above 0 and at most {}", self.width, Self::MAX_WIDTH);
+            return Err(SplineError::NoSolution { reason });
+        }
+        if self.comb_teeth == 0 || self.comb_teeth > Self::MAX_TEETH {
+            let reason = format!("comb_teeth is {}; it must be from 1 to {}", self.comb_teeth, Self::MAX_TEETH);
+            return Err(SplineError::NoSolution { reason });
+        }
+        Ok(())
+    }
+}
+
+impl Default for CurveDisplay {
+    fn default() -> Self {
+        Self {
+            color: 0,
+            width: 2.0,
+            polygon: true,
+            points: true,
+            labels: PointLabels::None,
+            knots: true,
+            comb: false,
+            comb_scale: 0.25,
+            comb_teeth: 12,
+            construction: false,
+            hull: false,
+            osculating_circle: false,
+            pieces: false,
+        }
+    }
+}

@@ -1,0 +1,460 @@
+//! Every change of a document, as a value: for the Undo menu, for tests, for scripts.
+
+use glam::{DMat2, DVec2};
+use thiserror::Error;
+
+use crate::core::bspline::SplineError;
+use crate::core::spline_curve::Nurbs;
+use crate::document::display::CurveDisplay;
+use crate::document::object::ObjectId;
+
+/// The highest degree that edits reach. The library goes further; degrees above 12 teach nothing.
+pub const MAX_EDIT_DEGREE: usize = 12;
+
+/// A change of a document.
+///
+/// Indices count from 0. Control points of a closed curve and its knots are those of one period.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Edit {
+    /// A new curve above all others.
+    AddCurve {
+        /// Name.
+        name: String,
+        /// The curve.
+        curve: Nurbs<DVec2>,
+        /// How it is shown.
+        display: CurveDisplay,
+    },
+    /// Removes objects.
+    RemoveObjects {
+        /// Which ones; the same number twice is the same as once.
+        objects: Vec<ObjectId>,
+    },
+    /// Puts a copy directly above the original.
+    DuplicateObject {
+        /// The original.
+        object: ObjectId,
+    },
+    /// Gives an object another name.
+    RenameObject {
+        /// The object.
+        object: ObjectId,
+        /// The new name.
+        name: String,
+    },
+    /// Moves an object in the drawing order.
+    ReorderObject {
+        /// The object.
+        object: ObjectId,
+        /// Its index afterwards, 0 is lowest.
+        to: usize,
+    },
+    /// Shows or hides an object.
+    SetVisible {
+        /// The object.
+        object: ObjectId,
+        /// Whether it is drawn.
+        visible: bool,
+    },
+    /// Changes how an object is shown.
+    SetDisplay {
+        /// The object.
+        object: ObjectId,
+        /// All choices.
+        display: CurveDisplay,
+    },
+    /// Moves control points by the same vector.
+    MovePoints {
+        /// The curve.
+        object: ObjectId,
+        /// Indices of the points.
+        points: Vec<usize>,
+        /// The vector.
+        delta: DVec2,
+    },
+    /// Puts one control point somewhere.
+    SetPoint {
+        /// The curve.
+        object: ObjectId,
+        /// Index of the point.
+        point: usize,
+        /// Where to.
+        position: DVec2,
+    },
+    /// Replaces all control points.
+    SetPoints {
+        /// The curve.
+        object: ObjectId,
+        /// As many positions as the curve has points.
+        positions: Vec<DVec2>,
+    },
+    /// Changes one weight.
+    SetWeight {
+        /// The curve.
+        object: ObjectId,
+        /// Index of the point.
+        point: usize,
+        /// The positive weight.
+        weight: f64,
+    },
+    /// Replaces all weights.
+    SetWeights {
+        /// The curve.
+        object: ObjectId,
+        /// As many positive weights as the curve has points.
+        weights: Vec<f64>,
+    },
+    /// Inserts a knot; the shape is kept.
+    InsertKnot {
+        /// The curve.
+        object: ObjectId,
+        /// The knot.
+        at: f64,
+    },
+    /// Removes one copy of a knot; the shape changes unless it was smooth enough.
+    RemoveKnot {
+        /// The curve.
+        object: ObjectId,
+        /// The knot.
+        at: f64,
+    },
+    /// Inserts the midpoint of every knot interval; the shape is kept.
+    RefineUniformly {
+        /// The curve.
+        object: ObjectId,
+    },
+    /// Moves one copy of a knot between its neighbours; the control points stay.
+    MoveKnot {
+        /// The curve.
+        object: ObjectId,
+        /// Index in `space().knots()`.
+        knot: usize,
+        /// Where to.
+        to: f64,
+    },
+    /// Moves all copies of a knot; an outer knot moves along with a knot that bounds the parameter interval.
+    MoveDistinctKnot {
+        /// The curve.
+        object: ObjectId,
+        /// The knot, exactly as it stands in the sequence.
+        at: f64,
+        /// Where to.
+        to: f64,
+    },
+    /// Replaces all knots, in the n-fold or in the (n+1)-fold convention; the control points stay.
+    SetKnots {
+        /// The curve.
+        object: ObjectId,
+        /// The knots.
+        knots: Vec<f64>,
+    },
+    /// Raises the degree by one; the shape is kept.
+    ElevateDegree {
+        /// The curve.
+        object: ObjectId,
+    },
+    /// Lowers the degree by one; the shape changes.
+    ReduceDegree {
+        /// The curve.
+        object: ObjectId,
+    },
+    /// Takes another degree with the same control points and new uniform knots over the same interval.
+    SetDegree {
+        /// The curve.
+        object: ObjectId,
+        /// From 1 to [`MAX_EDIT_DEGREE`].
+        degree: usize,
+    },
+    /// Closes a curve (same control points, uniform periodic knots) or cuts a closed one at its first knot (shape kept).
+    SetClosed {
+        /// The curve.
+        object: ObjectId,
+        /// Whether the curve shall be closed.
+        closed: bool,
+    },
+    /// Adds a control point and a knot; the shape changes.
+    InsertPoint {
+        /// The curve.
+        object: ObjectId,
+        /// The new point gets this index.
+        before: usize,
+        /// Where it stands.
+        position: DVec2,
+    },
+    /// Adds a control point at the end, and a knot; the shape changes.
+    AppendPoint {
+        /// The curve.
+        object: ObjectId,
+        /// Where it stands.
+        position: DVec2,
+    },
+    /// Removes control points and as many knots; the degree is lowered when too few points remain. If fewer than 2 remain,
+    /// the object is removed.
+    DeletePoints {
+        /// The curve.
+        object: ObjectId,
+        /// Indices of the points; the same index twice is the same as once.
+        points: Vec<usize>,
+    },
+    /// Runs through the curve the other way.
+    Reverse {
+        /// The curve.
+        object: ObjectId,
+    },
+    /// `c ↦ about + matrix·(c − about)` for some control points.
+    TransformPoints {
+        /// The curve.
+        object: ObjectId,
+        /// Indices of the points.
+        points: Vec<usize>,
+        /// The linear part.
+        matrix: DMat2,
+        /// The fixed point.
+        about: DVec2,
+    },
+    /// Puts another curve in place of one.
+    ReplaceCurve {
+        /// The curve.
+        object: ObjectId,
+        /// The new one.
+        curve: Nurbs<DVec2>,
+        /// Name of the step.
+        label: String,
+    },
+    /// Several edits as one step: all or none.
+    Batch {
+        /// Name of the step.
+        label: String,
+        /// The edits, in their order.
+        edits: Vec<Edit>,
+    },
+}
+
+impl Edit {
+    /// The name for the Undo menu: `Move 3 points`, `Insert knot 0.5`.
+    pub fn name(&self) -> String {
+        match self {
+            Self::AddCurve { name, .. } => format!("Add {name}"),
+            Self::RemoveObjects { objects } => counted("Delete", objects.len(), "object"),
+            Self::DuplicateObject { .. } => "Duplicate".to_owned(),
+            Self::RenameObject { name, .. } => format!("Rename to {name}"),
+            Self::ReorderObject { .. } => "Change drawing order".to_owned(),
+            Self::SetVisible { visible: true, .. } => "Show".to_owned(),
+            Self::SetVisible { visible: false, .. } => "Hide".to_owned(),
+            Self::SetDisplay { .. } => "Change display".to_owned(),
+            Self::MovePoints { points, .. } => counted("Move", points.len(), "point"),
+            Self::SetPoint { point, .. } => format!("Move point {point}"),
+            Self::SetPoints { .. } => "Move all points".to_owned(),
+            Self::SetWeight { point, weight, .. } => format!("Set weight {point} to {}", short(*weight)),
+            Self::SetWeights { .. } => "Set all weights".to_owned(),
+            Self::InsertKnot { at, .. } => format!("Insert knot {}", short(*at)),
+            Self::RemoveKnot { at, .. } => format!("Remove knot {}", short(*at)),
+            Self::RefineUniformly { .. } => "Refine uniformly".to_owned(),
+            Self::MoveKnot { to, .. } => format!("Move knot to {}", short(*to)),
+            Self::MoveDistinctKnot { at, to, .. } => format!("Move knot {} to {}", short(*at), short(*to)),
+            Self::SetKnots { .. } => "Set knots".to_owned(),
+            Self::ElevateDegree { .. } => "Raise degree".to_owned(),
+            Self::ReduceDegree { .. } => "Lower degree".to_owned(),
+            Self::SetDegree { degree, .. } => format!("Set degree {degree}"),
+            Self::SetClosed { closed: true, .. } => "Close curve".to_owned(),
+            Self::SetClosed { closed: false, .. } => "Open curve".to_owned(),
+            Self::InsertPoint { before, .. } => format!("Insert point {before}"),
+            Self::AppendPoint { .. } => "Add point".to_owned(),
+            Self::DeletePoints { points, .. } => counted("Delete", points.len(), "point"),
+            Self::Reverse { .. } => "Reverse".to_owned(),
+            Self::TransformPoints { points, .. } => counted("Transform", points.len(), "point"),
+            Self::ReplaceCurve { label, .. } | Self::Batch { label, .. } => label.clone(),
+        }
+    }
+}
+
+fn counted(verb: &str, count: usize, noun: &str) -> String {
+    if count == 1 { format!("{verb} {noun}") } else { format!("{verb} {count} {noun}s") }
+}
+
+/// A number with at most four digits after the point, or two significant ones if it is tiny or huge.
+fn short(value: f64) -> String {
+    if value != 0.0 && !(1e-3..1e6).contains(&value.abs()) {
+        return format!("{value:.1e}");
+    }
+    let rounded = (value * 1e4).round() / 1e4;
+    format!("{}", if rounded == 0.0 { 0.0 } else { rounded })
+}
+
+/// What an edit did.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    /// What happened to the shape of the curve.
+    pub shape: ShapeChange,
+    /// New objects.
+    pub created: Vec<ObjectId>,
+}
+
+/// What an edit did to the shape of a curve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ShapeChange {
+    /// There is nothing to say: no curve changed, or changing it was the purpose.
+    None,
+    /// The shape should be the same.
+    Kept {
+        /// A certified upper bound of the distance between old and new curve at equal parameters, in world units.
+        deviation: f64,
+    },
+    /// The shape is another one.
+    Changed {
+        /// An upper bound of the distance at equal parameters; `None` if the parameter intervals differ.
+        deviation: Option<f64>,
+        /// A parameter where the distance is largest among those sampled.
+        at: Option<f64>,
+    },
+}
+
+impl ShapeChange {
+    /// One sentence for the status line; `None` if there is nothing to say.
+    pub fn sentence(&self) -> Option<String> {
+        match *self {
+            Self::None => None,
+            Self::Kept { deviation: 0.0 } => Some("The shape is kept exactly.".to_owned()),
+            Self::Kept { deviation } => Some(format!("The shape is kept (deviation at most {deviation:.1e}).")),
+            Self::Changed { deviation: Some(deviation), at: Some(at) } => {
+                Some(format!("The shape changes by at most {}, most near t = {}.", short(deviation), short(at)))
+            }
+            Self::Changed { deviation: Some(deviation), at: None } => {
+                Some(format!("The shape changes by at most {}.", short(deviation)))
+            }
+            Self::Changed { deviation: None, .. } => Some("The shape changes.".to_owned()),
+        }
+    }
+}
+
+/// Why an edit cannot be done. The document is then unchanged.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum EditError {
+    /// No object has this number.
+    #[error("there is no object {object}")]
+    NoSuchObject {
+        /// The number.
+        object: ObjectId,
+    },
+    /// A curve has no point with this index.
+    #[error("object {object} has no point {index}; its {count} points are numbered from 0")]
+    NoSuchPoint {
+        /// The curve.
+        object: ObjectId,
+        /// The index.
+        index: usize,
+        /// Number of points.
+        count: usize,
+    },
+    /// A curve has no knot with this index.
+    #[error("object {object} has no knot {index}; its {count} knots are numbered from 0")]
+    NoSuchKnot {
+        /// The curve.
+        object: ObjectId,
+        /// The index.
+        index: usize,
+        /// Number of knots.
+        count: usize,
+    },
+    /// A value is not among the knots of a curve.
+    #[error("{at} is not a knot of object {object}")]
+    NotAKnot {
+        /// The curve.
+        object: ObjectId,
+        /// The value.
+        at: f64,
+    },
+    /// A knot would pass a neighbour.
+    #[error("knot {knot} cannot move to {wanted}; it must stay between {low} and {high}")]
+    KnotBlocked {
+        /// Index of the knot, of the first copy if several move.
+        knot: usize,
+        /// Where it should go.
+        wanted: f64,
+        /// The smaller limit.
+        low: f64,
+        /// The larger limit.
+        high: f64,
+    },
+    /// The degree lies outside the window's range.
+    #[error("degree {degree} lies outside 1 to {MAX_EDIT_DEGREE}")]
+    DegreeOutsideWindow {
+        /// The degree.
+        degree: usize,
+    },
+    /// A position in the drawing order does not exist.
+    #[error("position {to} does not exist; the document has {count} objects")]
+    NoSuchPosition {
+        /// The position.
+        to: usize,
+        /// Number of objects.
+        count: usize,
+    },
+    /// A coordinate is infinite or not a number.
+    #[error("{what} is {value}, not a finite number")]
+    NonFinite {
+        /// What it belongs to.
+        what: &'static str,
+        /// The value.
+        value: f64,
+    },
+    /// There are too many objects or points.
+    #[error("{what}: {value} is above the limit {limit}")]
+    TooMany {
+        /// What is counted.
+        what: &'static str,
+        /// The number.
+        value: usize,
+        /// The largest possible number.
+        limit: usize,
+    },
+    /// The name of an object is unsuitable.
+    #[error("the name {name:?} {reason}")]
+    BadName {
+        /// The name.
+        name: String,
+        /// Why not.
+        reason: &'static str,
+    },
+    /// This program cannot do the edit.
+    #[error("{edit} is not available: {reason}")]
+    Unavailable {
+        /// The edit's name.
+        edit: String,
+        /// Why not.
+        reason: &'static str,
+    },
+    /// An edit of a batch failed.
+    #[error("step {index} of the batch: {source}")]
+    InBatch {
+        /// Index of the edit.
+        index: usize,
+        /// What is wrong with it.
+        #[source]
+        source: Box<EditError>,
+    },
+    /// Points, weights or knots do not make a curve.
+    #[error(transparent)]
+    Spline(#[from] SplineError),
+}
+
+impl EditError {
+    /// The name of the error, of the spline error's if that is the cause.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::NoSuchObject { .. } => "NoSuchObject",
+            Self::NoSuchPoint { .. } => "NoSuchPoint",
+            Self::NoSuchKnot { .. } => "NoSuchKnot",
+            Self::NotAKnot { .. } => "NotAKnot",
+            Self::KnotBlocked { .. } => "KnotBlocked",
+            Self::DegreeOutsideWindow { .. } => "DegreeOutsideWindow",
+            Self::NoSuchPosition { .. } => "NoSuchPosition",
+            Self::NonFinite { .. } => "NonFinite",
+            Self::TooMany { .. } => "TooMany",
+            Self::BadName { .. } => "BadName",
+            Self::Unavailable { .. } => "Unavailable",
+            Self::InBatch { source, .. } => source.name(),
+            Self::Spline(error) => error.name(),
+        }
+    }
+}

@@ -1,0 +1,32 @@
+//! Everything that is saved and undone: objects with stable numbers, how each is shown, edits with
+//! names for the Undo menu, the file format, saving and recovery.
+//!
+//! The way of a change: an [`Edit`] goes to [`History::apply`], which keeps the document of before and lets
+//! [`Document::apply`] work on a cheap copy; the [`Outcome`] says what happened to the shape.
+//! [`save`] and [`load`] keep files, [`Autosave`] what has not been saved yet.
+
+mod apply;
+mod display;
+mod contents;
+mod edit;
+mod file_error;
+mod history;
+mod json;
+mod json_writer;
+mod object;
+mod recovery;
+mod samples;
+mod storage;
+mod view;
+
+pub use display::{CurveDisplay, PointLabels};
+pub use contents::Document;
+pub use edit::{Edit, EditError, MAX_EDIT_DEGREE, Outcome, ShapeChange};
+pub use file_error::FileError;
+pub use history::{DEFAULT_BUDGET, History};
+pub use json::{EXTENSION, FORMAT_VERSION, from_json, to_json};
+pub use object::{Content, Object, ObjectId};
+pub use recovery::{Autosave, Damaged, Recovered};
+pub use samples::first_scene;
+pub use storage::{MAX_FILE_BYTES, load, save};
+pub use view::{Camera, Saved, View};

@@ -1,0 +1,54 @@
+//! How the document was looked at: saved beside the data, never undone.
+
+use std::collections::BTreeMap;
+
+use glam::DVec2;
+use serde::{Deserialize, Serialize};
+
+use crate::document::contents::Document;
+use crate::document::object::ObjectId;
+
+/// Camera, parameters, panels and selection. Unknown entries of a file are ignored, missing ones take defaults.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct View {
+    /// Where the canvas looks.
+    pub camera: Camera,
+    /// The parameter t of each curve.
+    pub parameters: BTreeMap<ObjectId, f64>,
+    /// Name of the open workspace; empty for the first.
+    pub workspace: String,
+    /// Name of the look; empty for the program's choice.
+    pub theme: String,
+    /// Which panels are open, by name.
+    pub panels: BTreeMap<String, bool>,
+    /// The selected object.
+    pub selected_object: Option<ObjectId>,
+    /// The selected control points of that object.
+    pub selected_points: Vec<usize>,
+}
+
+/// A plane camera without rotation.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Camera {
+    /// World point in the middle of the canvas.
+    pub center: DVec2,
+    /// Screen points per world unit.
+    pub scale: f64,
+}
+
+impl Default for Camera {
+    fn default() -> Self {
+        Self { center: DVec2::ZERO, scale: 80.0 }
+    }
+}
+
+/// What a file holds.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Saved {
+    /// The data.
+    pub document: Document,
+    /// How it was looked at.
+    pub view: View,
+}
