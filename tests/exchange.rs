@@ -20,8 +20,8 @@ fn view() -> Viewport {
 
 fn cubic_curve() -> Nurbs<DVec2> {
     let points = (0..8).map(|k| DVec2::new(f64::from(k), (f64::from(k) * 1.9).sin())).collect();
-    let space = SplineSpace::new(3, (0..12).map(f64::from).collect()).unwrap();
-    Nurbs::polynomial(space, points).unwrap()
+    let space = SplineSpace::new(3, (0..12).map(f64::from).collect()).expect("knots 0 to 11");
+    Nurbs::polynomial(space, points).expect("eight control points")
 }
 
 fn label(text: &str, math: bool) -> Item {

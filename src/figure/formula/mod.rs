@@ -15,6 +15,7 @@
 //!
 //! The rules are those of TeX (D. Knuth, *The `TeXbook`*, appendix G) with the constants of the font's MATH table.
 
+mod constants;
 mod letter;
 mod math_box;
 mod parse;
