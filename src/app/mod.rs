@@ -13,12 +13,12 @@ mod curves;
 mod file_dialog;
 mod files;
 mod formula_view;
+mod icon;
 mod inspector;
 mod knot_line;
 mod lesson_panel;
 mod look;
 mod menu_bar;
-mod icon;
 mod number_field;
 mod number_text;
 mod object_list;
@@ -30,12 +30,9 @@ mod shortcut_sheet;
 mod smoke_log;
 mod status_bar;
 mod stepper_panel;
-<<<<<<< HEAD
 #[cfg(test)]
 mod test_lab;
-=======
 mod text_field;
->>>>>>> app-shell
 mod toolbar;
 mod window;
 mod workspace;

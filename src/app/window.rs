@@ -14,7 +14,7 @@ use crate::app::workspace::{self, Workspace};
 use crate::app::{
     LEFT_PANEL, RIGHT_PANEL, files, inspector, lesson_panel, look, menu_bar, object_list, status_bar, stepper_panel, toolbar,
 };
-use crate::document::samples;
+use crate::document::first_scene;
 use crate::figure::theme::Theme;
 
 /// The program with its window.
@@ -57,7 +57,7 @@ impl LabApp {
     pub fn new(ctx: &egui::Context, file: Option<PathBuf>) -> Self {
         ctx.set_fonts(look::fonts());
         ctx.options_mut(|options| options.zoom_with_keyboard = false);
-        let (document, view) = samples::first_scene();
+        let (document, view) = first_scene();
         let mut lab = Lab::new(document, view);
         let files = Files::new(file, &mut lab);
         Self {

@@ -3,6 +3,7 @@
 pub mod chart;
 pub mod clip;
 pub mod comb;
+pub mod composition;
 pub mod curve;
 pub mod font_metrics;
 pub mod formula;

@@ -135,6 +135,11 @@ impl Theme {
         [Self::light(), Self::dark(), Self::presentation()]
     }
 
+    /// The look with this [`Self::name`].
+    pub fn by_name(name: &str) -> Option<Self> {
+        Self::all().into_iter().find(|theme| theme.name == name)
+    }
+
     /// Colour of B-spline, control point or series number `k`; repeats after the palette's length.
     pub fn basis_color(&self, k: usize) -> Color {
         self.palette[k % self.palette.len()]

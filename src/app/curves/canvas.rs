@@ -6,7 +6,7 @@ use glam::DVec2;
 use crate::app::command::Command;
 use crate::app::curves::context_menu;
 use crate::app::curves::draw_tool::Drawing;
-use crate::app::curves::gesture::{GRID_SPACING, Gesture};
+use crate::app::curves::gesture::{Gesture, fine_step};
 use crate::app::curves::handles;
 use crate::app::curves::hit::{Target, target_at};
 use crate::app::lab::{Hovered, Lab, Tool};
@@ -14,7 +14,6 @@ use crate::app::painter::{color32, paint_note, paint_picture, screen_from_world,
 use crate::document::{CurveDisplay, Edit, ObjectId, PointLabels};
 use crate::figure::composition::{Composition, GRID, SchemeReveal, compose_with};
 use crate::figure::picture::Viewport;
-use crate::figure::ticks::tick_step;
 
 /// Room around the objects when they are fitted, in pt.
 const FIT_MARGIN: f64 = 60.0;
@@ -320,7 +319,7 @@ fn nudge(lab: &mut Lab, viewport: &Viewport, ui: &Ui) {
                 wanted && input.consume_key(input.modifiers, key)
             });
             if pressed {
-                let step = 0.1 * tick_step(GRID_SPACING / viewport.scale) * factor;
+                let step = 0.1 * fine_step(viewport) * factor;
                 let points = lab.selection.points.iter().copied().collect();
                 lab.edit(Edit::MovePoints { object, points, delta: direction * step });
             }

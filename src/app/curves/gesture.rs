@@ -11,16 +11,18 @@ use crate::app::lab::Lab;
 use crate::app::painter::{screen_from_world, world_from_screen};
 use crate::document::Edit;
 use crate::figure::picture::Viewport;
-use crate::figure::ticks::tick_step;
+use crate::figure::ticks::grid_step;
 
 /// A press that moves less than this many pixels is a click and changes nothing.
 const DEAD_ZONE: f32 = 4.0;
 
-/// Spacing, in pixels, that the lines of the grid have at least.
-pub(super) const GRID_SPACING: f64 = 24.0;
-
 /// Pixels within which Ctrl snaps to the grid.
 const SNAP_REACH: f64 = 8.0;
+
+/// Distance of the finest lines of the grid; 1 where the zoom is beyond every grid.
+pub(super) fn fine_step(viewport: &Viewport) -> f64 {
+    grid_step(viewport).map_or(1.0, |step| step.finer().size())
+}
 
 /// A press of the left button and what it has become.
 #[derive(Debug)]
@@ -112,7 +114,7 @@ impl Gesture {
             if delta.x.abs() >= delta.y.abs() { delta.y = 0.0 } else { delta.x = 0.0 }
         }
         if keys.command || keys.ctrl {
-            let step = tick_step(GRID_SPACING / viewport.scale);
+            let step = fine_step(viewport);
             let reach = SNAP_REACH / viewport.scale;
             for axis in 0..2 {
                 let wanted = self.grabbed[axis] + delta[axis];

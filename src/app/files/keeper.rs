@@ -26,10 +26,9 @@ const PREFERENCES_REST: f64 = 1.0;
 
 /// What a crash left behind in `folder`, the newest first, and a message about files that cannot be read.
 pub(super) fn abandoned(folder: &Path) -> (Vec<Recovered>, Option<String>) {
-    let found = Autosave::abandoned(folder);
-    let mut recovered = found.recovered;
+    let mut recovered = Autosave::abandoned(folder);
     recovered.sort_by_key(|document| std::cmp::Reverse(document.written));
-    let damaged: Vec<String> = found.damaged.iter().map(ToString::to_string).collect();
+    let damaged: Vec<String> = Autosave::damaged(folder).iter().map(|damaged| format!("{}: {}", damaged.path.display(), damaged.error)).collect();
     let message = (!damaged.is_empty()).then(|| damaged.join("\n"));
     (recovered, message)
 }

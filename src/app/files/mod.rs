@@ -395,7 +395,7 @@ impl Files {
         if !ui.input(|input| input.raw.hovered_files.is_empty()) {
             question::show_drop_hint(ui);
         }
-        let dropped = ui.input(|input| input.raw.dropped_files.iter().find_map(|file| file.path.clone()));
+        let dropped = ui.input(|input| input.raw.dropped_files.first().map(|file| file.path().to_owned()));
         if let Some(path) = dropped
             && !self.is_asking()
         {

@@ -12,7 +12,7 @@ use crate::core::spline_curve::Nurbs;
 use crate::document::{Content, Document, Object, View};
 use crate::figure::picture::{Picture, Viewport};
 use crate::figure::theme::Theme;
-use crate::figure::ticks::grid_items;
+use crate::figure::ticks::{grid_labels, grid_lines};
 
 pub use construction::{SchemeReveal, construction_items};
 pub use curve_layers::short_number;
@@ -44,7 +44,8 @@ pub fn compose_with(
 ) -> Picture {
     let mut picture = Picture::new((!choices.transparent).then_some(theme.background));
     if view.panels.get(GRID).copied().unwrap_or(true) {
-        picture.push_layer("grid", grid_items(viewport, theme));
+        picture.push_layer("grid", grid_lines(viewport, theme));
+        picture.push_layer("scale", grid_labels(viewport, theme));
     }
     for object in document.objects().iter().filter(|object| object.visible) {
         let Content::Curve(curve) = &object.content;
