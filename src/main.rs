@@ -1,1 +1,9 @@
-fn main() { spline_lab::app::run(std::env::args().nth(1).map(Into::into)).unwrap(); }
+//! The program `spline-lab`: the window, and jobs that need none. See `spline-lab --help`.
+
+mod command_line;
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    command_line::run()
+}
