@@ -1,10 +1,16 @@
+<<<<<<< HEAD
 //! The command line: which window or headless job is asked for, and what it says.
 
 use std::fmt;
+=======
+//! The command line: opens the window, or does one job without it.
+
+>>>>>>> app-shell
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+<<<<<<< HEAD
 use clap::builder::PossibleValuesParser;
 use clap::{Parser, Subcommand};
 use glam::DVec2;
@@ -16,11 +22,25 @@ use spline_lab::figure::picture::Viewport;
 use spline_lab::figure::theme::Theme;
 
 /// Points (pt) in a millimetre.
+=======
+use clap::{Parser, Subcommand, ValueEnum};
+use glam::DVec2;
+
+use crate::course::lessons;
+use crate::document::{self, Content, Document};
+use crate::exchange::by_ending::{self, FigureFormat, figure, read_document};
+use crate::figure::composition::compose;
+use crate::figure::picture::Viewport;
+use crate::figure::theme::Theme;
+
+/// Points (1/72 inch) in a millimetre.
+>>>>>>> app-shell
 const POINTS_PER_MM: f64 = 72.0 / 25.4;
 
 /// Room around the objects of a figure, in pt.
 const MARGIN: f64 = 24.0;
 
+<<<<<<< HEAD
 /// A figure is at least this part of its width high, and at most the second.
 const HEIGHT_OF_WIDTH: (f64, f64) = (0.3, 1.5);
 
@@ -32,10 +52,20 @@ struct CommandLine {
     job: Option<Job>,
     /// The document to open in the window: a .spline file, or an SVG that the lab wrote.
     file: Option<PathBuf>,
+=======
+#[derive(Debug, Parser)]
+#[command(name = "spline-lab", version, about = "Take hold of splines", args_conflicts_with_subcommands = true)]
+struct Arguments {
+    /// The document to open: a .spline file, or an SVG figure that was made from one
+    file: Option<PathBuf>,
+    #[command(subcommand)]
+    job: Option<Job>,
+>>>>>>> app-shell
 }
 
 #[derive(Debug, Subcommand)]
 enum Job {
+<<<<<<< HEAD
     /// Write a figure of a document as SVG, PDF or PNG.
     Figure {
         /// The document.
@@ -89,10 +119,62 @@ impl fmt::Display for Failure {
             Self::Document(error) => error.fmt(f),
             Self::Request(text) => f.write_str(text),
             Self::Output(error) => write!(f, "the answer could not be printed: {error}"),
+=======
+    /// Writes a figure of a document: SVG, PDF or PNG by the ending of OUT
+    Figure {
+        /// The document
+        file: PathBuf,
+        /// The figure
+        #[arg(short, long, value_name = "OUT")]
+        output: PathBuf,
+        /// Width of the figure in mm
+        #[arg(long, default_value_t = 160.0, value_name = "MM")]
+        width: f64,
+        /// Height of the figure in mm; as the objects need by default
+        #[arg(long, value_name = "MM")]
+        height: Option<f64>,
+        /// The look
+        #[arg(long, value_enum, default_value_t = Look::Light)]
+        theme: Look,
+        /// Pixels per pt of a PNG
+        #[arg(long, default_value_t = 3.0, value_name = "N")]
+        scale: f64,
+    },
+    /// Writes a document in another format: .spline, or .svg with the document inside
+    Convert {
+        /// The document to read
+        input: PathBuf,
+        /// The file to write
+        output: PathBuf,
+    },
+    /// Reads a document and says what is in it, or where it is wrong
+    Check {
+        /// The document
+        file: PathBuf,
+    },
+    /// Lists the lessons
+    Lessons,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Look {
+    Light,
+    Dark,
+    Presentation,
+}
+
+impl Look {
+    fn theme(self) -> Theme {
+        match self {
+            Self::Light => Theme::light(),
+            Self::Dark => Theme::dark(),
+            Self::Presentation => Theme::presentation(),
+>>>>>>> app-shell
         }
     }
 }
 
+<<<<<<< HEAD
 impl From<ByEndingError> for Failure {
     fn from(error: ByEndingError) -> Self {
         Self::File(error)
@@ -128,11 +210,31 @@ pub(crate) fn run() -> ExitCode {
         Err(failure) => {
             // There is no one else to tell when this fails.
             let _ = writeln!(io::stderr(), "spline-lab: {failure}");
+=======
+/// Does what the arguments of the program ask for.
+pub fn run() -> ExitCode {
+    let arguments = Arguments::parse();
+    let done = match arguments.job {
+        None => open_window(arguments.file),
+        Some(Job::Figure { file, output, width, height, theme, scale }) => {
+            write_figure(&file, &output, width, height, &theme.theme(), scale)
+        }
+        Some(Job::Convert { input, output }) => convert(&input, &output),
+        Some(Job::Check { file }) => check(&file),
+        Some(Job::Lessons) => list_lessons(),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            // Where standard error is closed there is nobody to tell.
+            let _ = writeln!(io::stderr(), "spline-lab: {message}");
+>>>>>>> app-shell
             ExitCode::FAILURE
         }
     }
 }
 
+<<<<<<< HEAD
 #[cfg(feature = "app")]
 fn open_window(file: Option<PathBuf>) -> Result<(), Failure> {
     spline_lab::app::run(file).map_err(|error| {
@@ -142,10 +244,30 @@ fn open_window(file: Option<PathBuf>) -> Result<(), Failure> {
              machine: apt install mesa-vulkan-drivers\n\
              The commands figure, convert, check and lessons work without; see spline-lab --help."
         ))
+=======
+fn say(text: &str) -> Result<(), String> {
+    match writeln!(io::stdout(), "{text}") {
+        // A reader that has seen enough, such as head, is no failure.
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error.to_string()),
+        _ => Ok(()),
+    }
+}
+
+#[cfg(feature = "app")]
+fn open_window(file: Option<PathBuf>) -> Result<(), String> {
+    crate::app::run(file).map_err(|error| {
+        format!(
+            "the window cannot be opened: {error}\n\
+             A display (X11 or Wayland) and a Vulkan or OpenGL driver are needed. Without a graphics card Mesa's software\n\
+             drivers do, on Debian: apt install mesa-vulkan-drivers libgl1-mesa-dri\n\
+             These work without a window: spline-lab figure, convert, check, lessons"
+        )
+>>>>>>> app-shell
     })
 }
 
 #[cfg(not(feature = "app"))]
+<<<<<<< HEAD
 fn open_window(_file: Option<PathBuf>) -> Result<(), Failure> {
     Err(Failure::Request(
         "this program was built without the window; build it with: cargo build --release --features app\n\
@@ -206,10 +328,81 @@ fn check(file: &Path, output: &mut impl Write) -> Result<(), Failure> {
     writeln!(output, "{}: {count} {}", file.display(), if count == 1 { "object" } else { "objects" })?;
     for object in document.objects() {
         writeln!(output, "  {}", describe(object))?;
+=======
+fn open_window(_file: Option<PathBuf>) -> Result<(), String> {
+    Err("this build has no window; build with: cargo build --release --features app".to_owned())
+}
+
+fn write_figure(
+    file: &Path,
+    output: &Path,
+    width: f64,
+    height: Option<f64>,
+    theme: &Theme,
+    scale: f64,
+) -> Result<(), String> {
+    let format = FigureFormat::of(output).map_err(|error| error.to_string())?;
+    let saved = read_document(file).map_err(|error| error.to_string())?;
+    let viewport = page(&saved.document, width, height)?;
+    let picture = compose(&saved.document, &saved.view, theme, &viewport);
+    let bytes = figure(format, &picture, &viewport, &saved.document, &saved.view, scale);
+    let bytes = bytes.map_err(|error| error.to_string())?;
+    by_ending::write_file(output, &bytes).map_err(|error| error.to_string())
+}
+
+/// The page of the given width that shows all visible objects; its height follows from theirs unless it is given.
+fn page(document: &Document, width: f64, height: Option<f64>) -> Result<Viewport, String> {
+    for (name, length) in [("width", Some(width)), ("height", height)] {
+        if let Some(length) = length
+            && !(10.0..=2000.0).contains(&length)
+        {
+            return Err(format!("the {name} is {length} mm; it must be between 10 and 2000 mm"));
+        }
+    }
+    let (low, high) = document.bounding_box().unwrap_or((DVec2::ZERO, DVec2::ONE));
+    let extent = high - low;
+    let width = width * POINTS_PER_MM;
+    let natural = if extent.x > 0.0 { (width - 2.0 * MARGIN) * extent.y / extent.x + 2.0 * MARGIN } else { width };
+    let height = height.map_or_else(|| natural.clamp(0.25 * width, 1.5 * width), |height| height * POINTS_PER_MM);
+    Ok(Viewport::fitting(low, high, DVec2::new(width, height), MARGIN))
+}
+
+fn convert(input: &Path, output: &Path) -> Result<(), String> {
+    let saved = read_document(input).map_err(|error| error.to_string())?;
+    if by_ending::is_document(output) {
+        return document::save(output, &saved.document, &saved.view).map_err(|error| error.to_string());
+    }
+    match FigureFormat::of(output) {
+        Ok(FigureFormat::Svg) => write_figure(input, output, 160.0, None, &Theme::light(), 1.0),
+        _ => Err(format!("{}: convert writes .spline and .svg; for .pdf and .png use spline-lab figure", output.display())),
+    }
+}
+
+fn check(file: &Path) -> Result<(), String> {
+    let saved = read_document(file).map_err(|error| error.to_string())?;
+    let objects = saved.document.objects();
+    let count = objects.len();
+    say(&format!("{}: {count} {}", file.display(), if count == 1 { "object" } else { "objects" }))?;
+    for object in objects {
+        let Content::Curve(curve) = &object.content;
+        let space = curve.space();
+        let (left, right) = space.parameter_interval();
+        say(&format!(
+            "  {}: {} {} curve of degree {}, {} control points, {} knots, interval [{left}, {right}]{}",
+            object.name,
+            if space.is_periodic() { "closed" } else { "open" },
+            if curve.is_polynomial() { "polynomial" } else { "rational" },
+            curve.degree(),
+            curve.points().len(),
+            space.knots().len(),
+            if object.visible { "" } else { ", hidden" },
+        ))?;
+>>>>>>> app-shell
     }
     Ok(())
 }
 
+<<<<<<< HEAD
 fn describe(object: &Object) -> String {
     let Object { id, name, content, visible, .. } = object;
     let Content::Curve(curve) = content;
@@ -225,4 +418,34 @@ fn list_lessons(output: &mut impl Write) -> Result<(), Failure> {
         writeln!(output, "{}", lesson.heading())?;
     }
     Ok(())
+=======
+fn list_lessons() -> Result<(), String> {
+    lessons().iter().try_for_each(|lesson| say(&lesson.heading()))
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory as _;
+
+    use super::*;
+
+    #[test]
+    fn the_arguments_are_consistent() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn a_page_shows_every_control_point_and_refuses_absurd_sizes() {
+        let (document, _) = document::first_scene();
+        let viewport = page(&document, 160.0, None).unwrap();
+        let (low, high) = document.bounding_box().unwrap();
+        for corner in [low, high] {
+            let place = viewport.page_from_world(corner);
+            assert!(place.cmpge(DVec2::ZERO).all() && place.cmple(viewport.size).all(), "{corner} is at {place}");
+        }
+        for width in [0.0, -3.0, f64::NAN, 1e9] {
+            assert!(page(&document, width, None).is_err(), "width {width}");
+        }
+    }
+>>>>>>> app-shell
 }

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use eframe::egui::{
-    Color32, FontFamily, FontId, Galley, Painter, Pos2, Rect, Response, Role, Sense, Ui, WidgetInfo, cache, pos2, vec2,
+    Color32, FontFamily, FontId, Galley, Painter, Pos2, Rect, Response, Role, Sense, Ui, WidgetInfo, cache,
+    pos2, vec2,
 };
 
 use crate::app::look::{MATH, SEMIBOLD};
@@ -22,7 +23,8 @@ struct Typesetter;
 impl cache::ComputerMut<(&str, u32, bool), Cached> for Typesetter {
     fn compute(&mut self, (source, size_bits, inline): (&str, u32, bool)) -> Cached {
         let size = f64::from(f32::from_bits(size_bits));
-        let layout = if inline { formula::layout_inline(source, size) } else { formula::layout(source, size) };
+        let layout =
+            if inline { formula::layout_inline(source, size) } else { formula::layout(source, size) };
         layout.map(Arc::new)
     }
 }
@@ -30,7 +32,9 @@ impl cache::ComputerMut<(&str, u32, bool), Cached> for Typesetter {
 type FormulaCache = cache::FrameCache<Cached, Typesetter>;
 
 fn typeset(ui: &Ui, source: &str, size: f32, inline: bool) -> Cached {
-    ui.memory_mut(|memory| memory.caches.cache::<FormulaCache>().get((source, size.to_bits(), inline)).clone())
+    ui.memory_mut(|memory| {
+        memory.caches.cache::<FormulaCache>().get((source, size.to_bits(), inline)).clone()
+    })
 }
 
 /// Paints a typeset formula; `origin` is the left end of its base line.
@@ -182,7 +186,8 @@ fn flow(ui: &mut Ui, text: &str, color: Color32) -> Response {
     let body = eframe::egui::TextStyle::Body.resolve(ui.style());
     let words = words(ui, text, &body, color);
     let room = ui.available_width().max(40.0);
-    let space = ui.painter().layout_no_wrap(" ".to_owned(), body.clone(), color).size().x.max(body.size * 0.25);
+    let space =
+        ui.painter().layout_no_wrap(" ".to_owned(), body.clone(), color).size().x.max(body.size * 0.25);
 
     // Lines: words with their left ends.
     let mut lines: Vec<Vec<(f32, Word)>> = vec![Vec::new()];

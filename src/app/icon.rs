@@ -2,7 +2,9 @@
 
 use std::f32::consts::TAU;
 
-use eframe::egui::{Color32, Painter, Rect, Response, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
+use eframe::egui::{
+    Color32, Painter, Rect, Response, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2,
+};
 
 /// The sign on a button.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,7 +34,8 @@ pub(crate) enum Icon {
 /// A button with a sign, called `label` in tooltips and for screen readers.
 pub(crate) fn button(ui: &mut Ui, icon: Icon, label: &str, enabled: bool) -> Response {
     let side = ui.spacing().interact_size.y;
-    let (rect, response) = ui.allocate_exact_size(Vec2::splat(side), if enabled { Sense::click() } else { Sense::hover() });
+    let (rect, response) =
+        ui.allocate_exact_size(Vec2::splat(side), if enabled { Sense::click() } else { Sense::hover() });
     response.widget_info(|| WidgetInfo::labeled(Role::Button, enabled, label));
     let visuals = ui.style().interact(&response);
     if enabled && (response.hovered() || response.has_focus()) {
@@ -73,7 +76,8 @@ pub(crate) fn paint(painter: &Painter, icon: Icon, rect: Rect, ink: Color32) {
         Icon::Up => fill(&[(0.5, 0.2), (0.95, 0.8), (0.05, 0.8)]),
         Icon::Down => fill(&[(0.05, 0.2), (0.95, 0.2), (0.5, 0.8)]),
         Icon::Check => {
-            painter.add(Shape::line(vec![at(0.05, 0.55), at(0.4, 0.9), at(0.95, 0.1)], Stroke::new(1.8, ink)));
+            painter
+                .add(Shape::line(vec![at(0.05, 0.55), at(0.4, 0.9), at(0.95, 0.1)], Stroke::new(1.8, ink)));
         }
         Icon::Shown | Icon::Hidden => {
             let lid = |sign: f32| -> Vec<_> {

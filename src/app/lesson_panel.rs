@@ -55,7 +55,11 @@ fn text(lab: &mut Lab, ui: &mut Ui, state: &LessonState) {
                 (Command::NextLesson, "Next", state.index + 1 < count),
                 (Command::PreviousLesson, "Previous", state.index > 0),
             ] {
-                if ui.add_enabled(enabled, Button::new(text).small()).on_hover_text(command.text().1).clicked() {
+                if ui
+                    .add_enabled(enabled, Button::new(text).small())
+                    .on_hover_text(command.text().1)
+                    .clicked()
+                {
                     lab.commands.push(command);
                 }
             }
@@ -97,7 +101,8 @@ fn question(lab: &mut Lab, ui: &mut Ui, state: &mut LessonState) {
             Task::Number { .. } => {
                 ui.horizontal(|ui| {
                     let width = (ui.available_width() - 72.0).clamp(60.0, 160.0);
-                    let edit = TextEdit::singleline(&mut state.answer).desired_width(width).hint_text("a number");
+                    let edit =
+                        TextEdit::singleline(&mut state.answer).desired_width(width).hint_text("a number");
                     let field = ui.add(edit).accessible_name("Answer");
                     let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
                     if field.changed() {
@@ -109,7 +114,13 @@ fn question(lab: &mut Lab, ui: &mut Ui, state: &mut LessonState) {
                 });
             }
             Task::PlacePoint { .. } => {
-                let place = lab.selection.points.first().copied().zip(lab.curve()).map(|(k, curve)| curve.points()[k]);
+                let place = lab
+                    .selection
+                    .points
+                    .first()
+                    .copied()
+                    .zip(lab.curve())
+                    .map(|(k, curve)| curve.points()[k]);
                 let hint = "Select the control point that you put there";
                 let button = ui.add_enabled(place.is_some(), Button::new("Check the selected point"));
                 if button.on_disabled_hover_text(hint).clicked() {

@@ -31,7 +31,7 @@ mod smoke_log;
 mod status_bar;
 mod stepper_panel;
 #[cfg(test)]
-mod test_lab;
+mod test_bench;
 mod text_field;
 mod toolbar;
 mod window;

@@ -4,7 +4,8 @@
 //! was. A text that is no number stays as it is, red, with the reason beside it, until it is mended or given up.
 
 use eframe::egui::{
-    self, Align2, CursorIcon, FontId, Id, Key, Response, Role, Sense, StrokeKind, TextEdit, TextStyle, Ui, WidgetInfo, vec2,
+    self, Align2, CursorIcon, FontId, Id, Key, Response, Role, Sense, StrokeKind, TextEdit, TextStyle, Ui,
+    WidgetInfo, vec2,
 };
 
 use crate::app::lab::Lab;
@@ -143,7 +144,8 @@ impl<'a> NumberField<'a> {
             select_all(ui, id, &current.text);
         }
         current.reason = self.read(&current.text).err();
-        let ink = if current.reason.is_some() { ui.visuals().error_fg_color } else { ui.visuals().text_color() };
+        let ink =
+            if current.reason.is_some() { ui.visuals().error_fg_color } else { ui.visuals().text_color() };
         let editor = TextEdit::singleline(&mut current.text)
             .id(id)
             .font(TextStyle::Body)
@@ -176,7 +178,13 @@ impl<'a> NumberField<'a> {
         NumberResponse { response, event }
     }
 
-    fn show_resting(self, ui: &mut Ui, id: Id, rect: egui::Rect, draft: &mut Option<Draft>) -> NumberResponse {
+    fn show_resting(
+        self,
+        ui: &mut Ui,
+        id: Id,
+        rect: egui::Rect,
+        draft: &mut Option<Draft>,
+    ) -> NumberResponse {
         let sense = if self.drag == Drag::Off { Sense::click() } else { Sense::click_and_drag() };
         let mut response = ui.interact(rect, id, sense);
         response = response.on_hover_cursor(match self.drag {
@@ -187,7 +195,8 @@ impl<'a> NumberField<'a> {
         if ui.is_rect_visible(rect) {
             let visuals = ui.style().interact(&response);
             let broken = draft.is_some();
-            let outline = if broken { egui::Stroke::new(1.0, ui.visuals().error_fg_color) } else { visuals.bg_stroke };
+            let outline =
+                if broken { egui::Stroke::new(1.0, ui.visuals().error_fg_color) } else { visuals.bg_stroke };
             let ground = ui.visuals().text_edit_bg_color();
             ui.painter().rect(rect, 3.0, ground, outline, StrokeKind::Inside);
             let ink = if broken { ui.visuals().error_fg_color } else { visuals.text_color() };
@@ -195,7 +204,13 @@ impl<'a> NumberField<'a> {
             let wide = ui.painter().layout_no_wrap(text.clone(), font.clone(), ink).size().x;
             // A long number is set smaller rather than cut.
             font.size *= ((rect.width() - 6.0) / wide.max(1.0)).clamp(0.7, 1.0);
-            ui.painter_at(rect.shrink(1.0)).text(rect.right_center() - vec2(4.0, 0.0), Align2::RIGHT_CENTER, &text, font, ink);
+            ui.painter_at(rect.shrink(1.0)).text(
+                rect.right_center() - vec2(4.0, 0.0),
+                Align2::RIGHT_CENTER,
+                &text,
+                font,
+                ink,
+            );
         }
         let label = self.label;
         let shown = text.clone();
@@ -241,14 +256,20 @@ impl<'a> NumberField<'a> {
                 round_to_step(value, value * 0.005 * slow)
             }
         };
-        (value.is_finite() && (self.check)(value).is_ok()).then_some(NumberEvent::Dragged { from: start, to: value })
+        (value.is_finite() && (self.check)(value).is_ok())
+            .then_some(NumberEvent::Dragged { from: start, to: value })
     }
 }
 
 /// Carries `event` out on the document: typing is one undo step, a whole drag is one, called `name`.
 ///
 /// `edit` makes the edit from the number at the beginning and the new one.
-pub(crate) fn apply(lab: &mut Lab, event: Option<NumberEvent>, name: &str, edit: impl FnOnce(f64, f64) -> Edit) {
+pub(crate) fn apply(
+    lab: &mut Lab,
+    event: Option<NumberEvent>,
+    name: &str,
+    edit: impl FnOnce(f64, f64) -> Edit,
+) {
     match event {
         None => {}
         Some(NumberEvent::Typed { from, to }) => {

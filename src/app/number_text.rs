@@ -17,14 +17,18 @@ pub(crate) fn parse_list(text: &str) -> Result<Vec<f64>, String> {
     let commas_separate = words.iter().any(|word| separating(word)) || words.len() == 1;
     if !commas_separate {
         if text.contains(',') && text.contains('.') {
-            return Err("both point and comma as decimal sign: separate the numbers with semicolons".to_owned());
+            return Err(
+                "both point and comma as decimal sign: separate the numbers with semicolons".to_owned()
+            );
         }
         return words.into_iter().map(number).collect();
     }
     if words.len() > 1
         && let Some(word) = words.iter().find(|word| word.trim_matches(',').contains(','))
     {
-        return Err(format!("\u{201c}{word}\u{201d} can be read in two ways: separate the numbers with semicolons"));
+        return Err(format!(
+            "\u{201c}{word}\u{201d} can be read in two ways: separate the numbers with semicolons"
+        ));
     }
     text.split([',', ' ', '\t', '\n', '\r']).filter(|word| !word.is_empty()).map(number).collect()
 }
@@ -49,7 +53,14 @@ pub(crate) fn with_digits(value: f64, digits: i32) -> String {
         return "0".to_owned();
     }
     if !value.is_finite() {
-        return if value.is_nan() { "undefined" } else if value > 0.0 { "\u{221e}" } else { "\u{2212}\u{221e}" }.to_owned();
+        return if value.is_nan() {
+            "undefined"
+        } else if value > 0.0 {
+            "\u{221e}"
+        } else {
+            "\u{2212}\u{221e}"
+        }
+        .to_owned();
     }
     let magnitude = value.abs().log10().floor() as i32;
     let text = if (-4..=digits + 1).contains(&magnitude) {
@@ -70,7 +81,11 @@ pub(crate) fn with_digits(value: f64, digits: i32) -> String {
 
 /// `value` with all its digits, so that reading it again gives the same number.
 pub(crate) fn full(value: f64) -> String {
-    if value == 0.0 || (1e-5..1e16).contains(&value.abs()) { format!("{value}") } else { format!("{value:e}") }
+    if value == 0.0 || (1e-5..1e16).contains(&value.abs()) {
+        format!("{value}")
+    } else {
+        format!("{value:e}")
+    }
 }
 
 /// `value` rounded to a decimal step not larger than `step`: what a drag over pixels of that size can mean.
@@ -81,7 +96,8 @@ pub(crate) fn round_to_step(value: f64, step: f64) -> f64 {
     }
     let power = 10.0_f64.powi(exponent.abs() as i32);
     // Dividing by a power of ten is exact to the last digit; multiplying by its inverse is not.
-    let rounded = if exponent >= 0.0 { (value * power).round() / power } else { (value / power).round() * power };
+    let rounded =
+        if exponent >= 0.0 { (value * power).round() / power } else { (value / power).round() * power };
     if rounded.is_finite() { rounded } else { value }
 }
 
@@ -91,7 +107,15 @@ mod tests {
 
     #[test]
     fn lists_are_read_with_every_separator() {
-        for text in ["0 0.5 1.5", "0,0.5,1.5", "0, 0.5, 1.5", "0; 0,5; 1,5", "0 0,5 1,5", "[0, 0.5, 1.5]", "0;0.5;3/2"] {
+        for text in [
+            "0 0.5 1.5",
+            "0,0.5,1.5",
+            "0, 0.5, 1.5",
+            "0; 0,5; 1,5",
+            "0 0,5 1,5",
+            "[0, 0.5, 1.5]",
+            "0;0.5;3/2",
+        ] {
             assert_eq!(parse_list(text), Ok(vec![0.0, 0.5, 1.5]), "{text}");
         }
         assert_eq!(parse_list(""), Ok(Vec::new()), "nothing");
@@ -106,7 +130,13 @@ mod tests {
 
     #[test]
     fn shown_numbers_are_short_and_full_ones_come_back() {
-        for (value, text) in [(0.1 + 0.2, "0.3"), (-2.5, "\u{2212}2.5"), (1.0, "1"), (123_456.0, "123456"), (1e-9, "1e\u{2212}9")] {
+        for (value, text) in [
+            (0.1 + 0.2, "0.3"),
+            (-2.5, "\u{2212}2.5"),
+            (1.0, "1"),
+            (123_456.0, "123456"),
+            (1e-9, "1e\u{2212}9"),
+        ] {
             assert_eq!(short(value), text, "{value}");
         }
         for value in [0.1 + 0.2, 1e300, -7e-200, 123_456.789, f64::MIN_POSITIVE] {

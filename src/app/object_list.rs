@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use eframe::egui::{
-    Align, Button, Color32, Id, Key, Layout, Response, RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, TextEdit, Ui,
-    WidgetInfo, vec2,
+    Align, Button, Color32, Id, Key, Layout, Response, RichText, Role, ScrollArea, Sense, Stroke, StrokeKind,
+    TextEdit, Ui, WidgetInfo, vec2,
 };
 
 use crate::app::command::Command;
@@ -59,7 +59,13 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
     });
 }
 
-fn show_row(lab: &mut Lab, ui: &mut Ui, objects: &[Arc<Object>], index: usize, renaming: &mut Option<Renaming>) {
+fn show_row(
+    lab: &mut Lab,
+    ui: &mut Ui,
+    objects: &[Arc<Object>],
+    index: usize,
+    renaming: &mut Option<Renaming>,
+) {
     let object = &objects[index];
     let id = object.id;
     let selected = lab.selection.object == Some(id);
@@ -74,14 +80,17 @@ fn show_row(lab: &mut Lab, ui: &mut Ui, objects: &[Arc<Object>], index: usize, r
             rename(lab, ui, renaming);
             return;
         }
-        let buttons = if selected && objects.len() > 1 { 2.0 * (ui.spacing().interact_size.y + 2.0) } else { 0.0 };
+        let buttons =
+            if selected && objects.len() > 1 { 2.0 * (ui.spacing().interact_size.y + 2.0) } else { 0.0 };
         let size = vec2((ui.available_width() - buttons - 4.0).max(30.0), ui.spacing().interact_size.y);
         let mut text = RichText::new(&object.name);
         if !object.visible {
             text = text.weak();
         }
         let button = Button::selectable(selected, text).truncate().sense(Sense::click());
-        let response = ui.allocate_ui_with_layout(size, Layout::top_down_justified(Align::LEFT), |ui| ui.add(button)).inner;
+        let response = ui
+            .allocate_ui_with_layout(size, Layout::top_down_justified(Align::LEFT), |ui| ui.add(button))
+            .inner;
         if response.clicked() && !selected {
             lab.selection = Selection { object: Some(id), ..Selection::default() };
         }
@@ -117,14 +126,20 @@ fn describe(object: &Object) -> String {
         Content::Curve(curve) => {
             let closed = if curve.space().is_periodic() { "closed" } else { "open" };
             let rational = if curve.is_polynomial() { "" } else { ", rational" };
-            format!("{closed}, degree {}{rational}, {} points\nDouble click renames", curve.degree(), curve.points().len())
+            format!(
+                "{closed}, degree {}{rational}, {} points\nDouble click renames",
+                curve.degree(),
+                curve.points().len()
+            )
         }
     }
 }
 
 fn rename(lab: &mut Lab, ui: &mut Ui, renaming: &mut Option<Renaming>) {
     let Some(current) = renaming else { return };
-    let edit = TextEdit::singleline(&mut current.text).id(Id::unique(("rename object", current.object))).desired_width(f32::INFINITY);
+    let edit = TextEdit::singleline(&mut current.text)
+        .id(Id::unique(("rename object", current.object)))
+        .desired_width(f32::INFINITY);
     let response = ui.add(edit).accessible_name("Name of the object");
     if current.fresh {
         current.fresh = false;
@@ -141,7 +156,13 @@ fn rename(lab: &mut Lab, ui: &mut Ui, renaming: &mut Option<Renaming>) {
     }
 }
 
-fn menu(lab: &mut Lab, response: &Response, objects: &[Arc<Object>], index: usize, renaming: &mut Option<Renaming>) {
+fn menu(
+    lab: &mut Lab,
+    response: &Response,
+    objects: &[Arc<Object>],
+    index: usize,
+    renaming: &mut Option<Renaming>,
+) {
     let object = &objects[index];
     let id = object.id;
     response.context_menu(|ui| {
@@ -176,5 +197,7 @@ fn menu(lab: &mut Lab, response: &Response, objects: &[Arc<Object>], index: usiz
             lab.edit(Edit::RemoveObjects { objects: vec![id] });
         }
     });
-    response.widget_info(|| WidgetInfo::selected(Role::ListItem, true, lab.selection.object == Some(id), &object.name));
+    response.widget_info(|| {
+        WidgetInfo::selected(Role::ListItem, true, lab.selection.object == Some(id), &object.name)
+    });
 }

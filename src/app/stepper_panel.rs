@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use eframe::egui::{
-    Align2, CornerRadius, FontId, Rect, RichText, Role, ScrollArea, Sense, Slider, Stroke, StrokeKind, Ui, Vec2,
-    WidgetInfo, pos2, vec2,
+    Align2, CornerRadius, FontId, Rect, RichText, Role, ScrollArea, Sense, Slider, Stroke, StrokeKind, Ui,
+    Vec2, WidgetInfo, pos2, vec2,
 };
 
 use crate::app::formula_view;
@@ -51,7 +51,11 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
             formula_view::rich_text(ui, note, color32(lab.theme.accent));
         }
         ui.add_space(4.0);
-        ui.label(RichText::new("The numbers beside the lines are the weights γ and 1 − γ of the parents.").weak().small());
+        ui.label(
+            RichText::new("The numbers beside the lines are the weights γ and 1 − γ of the parents.")
+                .weak()
+                .small(),
+        );
     });
 }
 
@@ -190,7 +194,16 @@ fn table(lab: &mut Lab, ui: &mut Ui, object: ObjectId, stepper: &Stepper) {
                 highlighted: highlighted.contains(&entry.tie()),
                 lit: is_lit(lab, object, entry),
             };
-            cell(lab, ui, object, stepper, grid.rect(origin, entry.level, entry.position), entry, look, grid.lines);
+            cell(
+                lab,
+                ui,
+                object,
+                stepper,
+                grid.rect(origin, entry.level, entry.position),
+                entry,
+                look,
+                grid.lines,
+            );
         }
     });
 }
@@ -234,7 +247,8 @@ fn arrows(
         let sign = if side == 0 { -1.0 } else { 1.0 };
         let from = pos2(parent.center().x - sign * 0.15 * grid.cell.x, parent.bottom() + 1.0);
         let to = pos2(child.center().x + sign * 0.22 * grid.cell.x, child.top() - 1.0);
-        ui.painter().line_segment([from, to], Stroke::new(if told { 1.6 } else { 1.0 }, ink.gamma_multiply(0.8)));
+        ui.painter()
+            .line_segment([from, to], Stroke::new(if told { 1.6 } else { 1.0 }, ink.gamma_multiply(0.8)));
         // The number stands on its line, the line behind it wiped out: beside it there is no room.
         let text = if grid.pitch < 64.0 { with_digits(weight, 2) } else { compact(weight) };
         let galley = ui.painter().layout_no_wrap(text, font.clone(), ink);
@@ -258,7 +272,8 @@ fn cell(
     let (level, position) = entry.tie();
     let response = ui.interact(rect, ui.make_persistent_id(("entry", level, position)), Sense::click());
     let value = texts(entry).join(", ");
-    response.widget_info(|| WidgetInfo::labeled(Role::Cell, true, format!("{} = ({value})", entry.plain_label)));
+    response
+        .widget_info(|| WidgetInfo::labeled(Role::Cell, true, format!("{} = ({value})", entry.plain_label)));
     if response.hovered() {
         lab.hovering = Hovered::Entry(object, level, position);
     }
@@ -292,7 +307,13 @@ fn cell(
     let scale = theme.text_scale as f32;
     let middle = rect.center().x;
     let name = FontId::proportional(11.5 * scale);
-    painter.text(pos2(middle, rect.top() + 3.0), Align2::CENTER_TOP, &entry.plain_label, name, own.gamma_multiply(opacity));
+    painter.text(
+        pos2(middle, rect.top() + 3.0),
+        Align2::CENTER_TOP,
+        &entry.plain_label,
+        name,
+        own.gamma_multiply(opacity),
+    );
     let faded = if entry.needed { opacity } else { opacity * 0.55 };
     let ink = ui.visuals().text_color().gamma_multiply(faded);
     let step = 13.0 * scale;

@@ -5,12 +5,11 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use glam::DVec2;
 
-use crate::app::lab::{Hovered, Lab, Selection, SidePage, StepperState, Tool};
+use crate::app::lab::Lab;
 use crate::app::look;
 use crate::core::bspline::SplineSpace;
 use crate::core::spline_curve::Nurbs;
-use crate::document::{CurveDisplay, Document, Edit, History, View};
-use crate::figure::theme::Theme;
+use crate::document::{CurveDisplay, Document, Edit, View};
 
 /// A lab with the curve of degree 3 over the knots −1 0 0 0 1 2 3 4 4 4 5, selected.
 pub(crate) fn lab() -> Lab {
@@ -25,24 +24,8 @@ pub(crate) fn lab() -> Lab {
 pub(crate) fn lab_with(curve: Nurbs<DVec2>) -> Lab {
     let mut document = Document::new();
     let edit = Edit::AddCurve { name: "Wave".to_owned(), curve, display: CurveDisplay::default() };
-    let created = document.apply(&edit).unwrap().created;
-    Lab {
-        history: History::new(document),
-        view: View::default(),
-        path: None,
-        selection: Selection { object: created.first().copied(), ..Selection::default() },
-        hovered: Hovered::Nothing,
-        hovering: Hovered::Nothing,
-        tool: Tool::Select,
-        theme: Theme::light(),
-        side: SidePage::Inspector,
-        stepper: StepperState::default(),
-        lesson: None,
-        shape_note: None,
-        messages: Vec::new(),
-        commands: Vec::new(),
-        canvas_size: DVec2::new(800.0, 600.0),
-    }
+    document.apply(&edit).unwrap();
+    Lab::new(document, View::default())
 }
 
 /// The knots of the selected curve.
@@ -53,7 +36,7 @@ pub(crate) fn knots(lab: &Lab) -> Vec<f64> {
 /// A window of the given size with one panel in it.
 pub(crate) fn window(lab: Lab, size: (f32, f32), panel: fn(&mut Lab, &mut Ui)) -> Harness<'static, Lab> {
     let mut styled = false;
-    let mut harness = Harness::builder().with_size(vec2(size.0, size.1)).build_ui_state(
+    let mut harness = Harness::builder().with_size(vec2(size.0, size.1)).with_step_dt(0.1).build_ui_state(
         move |ui, lab: &mut Lab| {
             if !styled {
                 ui.ctx().set_fonts(look::fonts());

@@ -52,8 +52,10 @@ impl<'a> TextField<'a> {
         let object_to = |text: &str| if text == self.value { None } else { check(text).err() };
         let mut reason = object_to(&text);
         let enter = self.rows > 1 && take_enter(ui, id);
-        let edit = if self.rows > 1 { TextEdit::multiline(&mut text) } else { TextEdit::singleline(&mut text) };
-        let mut edit = edit.id(id).desired_width(f32::INFINITY).desired_rows(self.rows).hint_text(self.hint.to_owned());
+        let edit =
+            if self.rows > 1 { TextEdit::multiline(&mut text) } else { TextEdit::singleline(&mut text) };
+        let mut edit =
+            edit.id(id).desired_width(f32::INFINITY).desired_rows(self.rows).hint_text(self.hint.to_owned());
         if reason.is_some() {
             edit = edit.text_color(ui.visuals().error_fg_color);
         }
@@ -89,5 +91,6 @@ impl<'a> TextField<'a> {
 /// Enter without Shift in a field of several lines: it takes the text instead of breaking the line.
 fn take_enter(ui: &Ui, id: Id) -> bool {
     ui.memory(|memory| memory.has_focus(id))
-        && ui.input_mut(|input| !input.modifiers.shift && input.consume_key(egui::Modifiers::NONE, Key::Enter))
+        && ui
+            .input_mut(|input| !input.modifiers.shift && input.consume_key(egui::Modifiers::NONE, Key::Enter))
 }

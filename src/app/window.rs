@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use eframe::egui::{self, Panel, Ui};
 
 use crate::app::command::Command;
+use crate::app::directories::Directories;
 use crate::app::files::Files;
 use crate::app::lab::{Lab, SidePage, Tone};
 use crate::app::palette::Palette;
@@ -55,11 +56,15 @@ pub fn run(file: Option<PathBuf>) -> eframe::Result {
 impl LabApp {
     /// The program as it starts, with the document in `file` or the first scene.
     pub fn new(ctx: &egui::Context, file: Option<PathBuf>) -> Self {
+        Self::in_directories(ctx, file, Directories::of_user())
+    }
+
+    fn in_directories(ctx: &egui::Context, file: Option<PathBuf>, directories: Directories) -> Self {
         ctx.set_fonts(look::fonts());
         ctx.options_mut(|options| options.zoom_with_keyboard = false);
         let (document, view) = first_scene();
         let mut lab = Lab::new(document, view);
-        let files = Files::new(file, &mut lab);
+        let files = Files::in_directories(file, &mut lab, directories);
         Self {
             lab,
             workspaces: workspace::all(),
@@ -71,6 +76,11 @@ impl LabApp {
             smoke_log: SmokeLog::from_environment(),
             styled: None,
         }
+    }
+
+    /// The program with the first scene, without the files and preferences of whoever runs the tests.
+    pub fn for_tests(ctx: &egui::Context) -> Self {
+        Self::in_directories(ctx, None, Directories::none())
     }
 
     /// The shared state.

@@ -302,7 +302,8 @@ pub enum ShapeChange {
     },
     /// The shape is another one.
     Changed {
-        /// An upper bound of the distance at equal parameters; `None` if the parameter intervals differ.
+        /// An upper bound of the distance at equal parameters; `None` if the parameter intervals differ or there are too many
+        /// points to measure while one drags.
         deviation: Option<f64>,
         /// A parameter where the distance is largest among those sampled.
         at: Option<f64>,
@@ -416,14 +417,6 @@ pub enum EditError {
         /// Why not.
         reason: &'static str,
     },
-    /// This program cannot do the edit.
-    #[error("{edit} is not available: {reason}")]
-    Unavailable {
-        /// The edit's name.
-        edit: String,
-        /// Why not.
-        reason: &'static str,
-    },
     /// An edit of a batch failed.
     #[error("step {index} of the batch: {source}")]
     InBatch {
@@ -452,7 +445,6 @@ impl EditError {
             Self::NonFinite { .. } => "NonFinite",
             Self::TooMany { .. } => "TooMany",
             Self::BadName { .. } => "BadName",
-            Self::Unavailable { .. } => "Unavailable",
             Self::InBatch { source, .. } => source.name(),
             Self::Spline(error) => error.name(),
         }

@@ -11,20 +11,24 @@ use crate::document::{CurveDisplay, Edit, PointLabels};
 pub(super) fn show(lab: &mut Lab, ui: &mut Ui, subject: &Subject) {
     let object = subject.object;
     let mut display = subject.display.clone();
-    Grid::new("shown").num_columns(2).min_col_width((ui.available_width() - 8.0) * 0.5).spacing([8.0, 3.0]).show(ui, |ui| {
-        ui.checkbox(&mut display.polygon, "Control polygon");
-        ui.checkbox(&mut display.points, "Control points");
-        ui.end_row();
-        ui.checkbox(&mut display.knots, "Knots");
-        ui.checkbox(&mut display.pieces, "Pieces in colours");
-        ui.end_row();
-        ui.checkbox(&mut display.construction, "Construction at t");
-        ui.checkbox(&mut display.hull, "Convex hull at t");
-        ui.end_row();
-        ui.checkbox(&mut display.osculating_circle, "Circle of curvature");
-        ui.checkbox(&mut display.comb, "Curvature comb");
-        ui.end_row();
-    });
+    Grid::new("shown")
+        .num_columns(2)
+        .min_col_width((ui.available_width() - 8.0) * 0.5)
+        .spacing([8.0, 3.0])
+        .show(ui, |ui| {
+            ui.checkbox(&mut display.polygon, "Control polygon");
+            ui.checkbox(&mut display.points, "Control points");
+            ui.end_row();
+            ui.checkbox(&mut display.knots, "Knots");
+            ui.checkbox(&mut display.pieces, "Pieces in colours");
+            ui.end_row();
+            ui.checkbox(&mut display.construction, "Construction at t");
+            ui.checkbox(&mut display.hull, "Convex hull at t");
+            ui.end_row();
+            ui.checkbox(&mut display.osculating_circle, "Circle of curvature");
+            ui.checkbox(&mut display.comb, "Curvature comb");
+            ui.end_row();
+        });
     ui.horizontal(|ui| {
         ui.label("Labels");
         let width = (ui.available_width() - 8.0).min(130.0);
@@ -35,11 +39,16 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, subject: &Subject) {
             PointLabels::Coordinates => "coordinates",
         };
         let chosen = display.labels;
-        let combo = ComboBox::from_id_salt(("labels", object)).width(width).selected_text(label(chosen)).show_ui(ui, |ui| {
-            for labels in [PointLabels::None, PointLabels::Index, PointLabels::Weight, PointLabels::Coordinates] {
-                ui.selectable_value(&mut display.labels, labels, label(labels));
-            }
-        });
+        let combo = ComboBox::from_id_salt(("labels", object))
+            .width(width)
+            .selected_text(label(chosen))
+            .show_ui(ui, |ui| {
+                for labels in
+                    [PointLabels::None, PointLabels::Index, PointLabels::Weight, PointLabels::Coordinates]
+                {
+                    ui.selectable_value(&mut display.labels, labels, label(labels));
+                }
+            });
         combo.response.accessible_name("Labels of the control points");
     });
     if display != subject.display {
@@ -54,9 +63,12 @@ fn numbers(lab: &mut Lab, ui: &mut Ui, subject: &Subject) {
     let set = |display: CurveDisplay| Edit::SetDisplay { object, display };
     ui.horizontal(|ui| {
         ui.label("Line width");
-        let width = NumberField::new("Line width in points", display.width).width(52.0).drag(Drag::PerPixel(0.05));
+        let width =
+            NumberField::new("Line width in points", display.width).width(52.0).drag(Drag::PerPixel(0.05));
         let width = width.check(line_width).show(ui, ("width", object));
-        number_field::apply(lab, width.event, "Change line width", |_, width| set(CurveDisplay { width, ..display.clone() }));
+        number_field::apply(lab, width.event, "Change line width", |_, width| {
+            set(CurveDisplay { width, ..display.clone() })
+        });
         ui.label(RichText::new("pt").weak());
     });
     if !display.comb {
@@ -64,14 +76,19 @@ fn numbers(lab: &mut Lab, ui: &mut Ui, subject: &Subject) {
     }
     ui.horizontal(|ui| {
         ui.label("Comb scale");
-        let scale = NumberField::new("Scale of the comb", display.comb_scale).width(60.0).drag(Drag::Factor).check(positive);
+        let scale = NumberField::new("Scale of the comb", display.comb_scale)
+            .width(60.0)
+            .drag(Drag::Factor)
+            .check(positive);
         let scale = scale.show(ui, ("comb scale", object));
         number_field::apply(lab, scale.event, "Change comb scale", |_, comb_scale| {
             set(CurveDisplay { comb_scale, ..display.clone() })
         });
         scale.response.on_hover_text("Length of a tooth where the curvature is 1");
         ui.label("teeth");
-        let teeth = NumberField::new("Teeth per knot span", display.comb_teeth as f64).width(44.0).drag(Drag::PerPixel(0.2));
+        let teeth = NumberField::new("Teeth per knot span", display.comb_teeth as f64)
+            .width(44.0)
+            .drag(Drag::PerPixel(0.2));
         let teeth = teeth.check(tooth_count).show(ui, ("comb teeth", object));
         number_field::apply(lab, teeth.event, "Change comb teeth", |_, teeth| {
             set(CurveDisplay { comb_teeth: teeth.round() as usize, ..display.clone() })

@@ -34,7 +34,8 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, subject: &Subject) {
     };
     let most = 7.0 * ui.text_style_height(&TextStyle::Body);
     let field = TextField::new("Knot list", &text).rows(2).hint("0 0 0 1 2 3 3 3");
-    let area = ScrollArea::vertical().id_salt(("knot list", object)).max_height(most).auto_shrink([false, true]);
+    let area =
+        ScrollArea::vertical().id_salt(("knot list", object)).max_height(most).auto_shrink([false, true]);
     let taken = area.show(ui, |ui| field.show(ui, ("knots", object), check)).inner;
     if let Some(Ok(edit)) = taken.as_deref().map(edit) {
         lab.edit(edit);

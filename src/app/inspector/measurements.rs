@@ -44,8 +44,10 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, subject: &Subject) {
 }
 
 fn copyable(lab: &mut Lab, ui: &mut Ui, name: &str, numbers: &[f64]) {
-    let join = |write: fn(f64) -> String| numbers.iter().map(|&number| write(number)).collect::<Vec<_>>().join(", ");
-    let response = ui.add(Button::new(join(short)).frame(false)).on_hover_text(format!("{}\nClick to copy", join(full)));
+    let join =
+        |write: fn(f64) -> String| numbers.iter().map(|&number| write(number)).collect::<Vec<_>>().join(", ");
+    let response =
+        ui.add(Button::new(join(short)).frame(false)).on_hover_text(format!("{}\nClick to copy", join(full)));
     if response.clicked() {
         ui.ctx().copy_text(join(full));
         lab.done(format!("{name} copied"));
@@ -69,7 +71,11 @@ fn lines(curve: &Nurbs<DVec2>, t: f64) -> Vec<Line> {
         Line { name: "Point", hint: "r(t)", numbers: Ok(vec![point.x, point.y]) },
         Line { name: "Tangent", hint: "r\u{2032}/|r\u{2032}|, from the right at a knot", numbers: tangent },
         Line { name: "Speed", hint: "|r\u{2032}(t)|", numbers: Ok(vec![speed]) },
-        Line { name: "Curvature", hint: "Positive where the curve turns left", numbers: curvature.map(|value| vec![value]) },
+        Line {
+            name: "Curvature",
+            hint: "Positive where the curve turns left",
+            numbers: curvature.map(|value| vec![value]),
+        },
         Line { name: "Radius", hint: "Radius of the circle of curvature", numbers: radius },
     ]
 }

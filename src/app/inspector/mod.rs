@@ -95,7 +95,10 @@ mod tests {
         window.key_press(eframe::egui::Key::Enter);
         window.run();
         assert_eq!(test_bench::knots(window.state()), before, "nothing applied");
-        assert!(window.query_by_label_contains("smaller than the knot 2 before it").is_some(), "the reason is shown");
+        assert!(
+            window.query_by_label_contains("smaller than the knot 2 before it").is_some(),
+            "the reason is shown"
+        );
     }
 
     #[test]

@@ -70,9 +70,16 @@ fn one(lab: &mut Lab, ui: &mut Ui, subject: &Subject, point: usize) {
         });
         letter(ui, "w");
         let weight = subject.curve.weights()[point];
-        let w = NumberField::new("Weight of the selected point", weight).width(width).drag(Drag::Factor).check(positive);
+        let w = NumberField::new("Weight of the selected point", weight)
+            .width(width)
+            .drag(Drag::Factor)
+            .check(positive);
         let w = w.show(ui, ("selected weight", object, point));
-        number_field::apply(lab, w.event, "Change weight", |_, weight| Edit::SetWeight { object, point, weight });
+        number_field::apply(lab, w.event, "Change weight", |_, weight| Edit::SetWeight {
+            object,
+            point,
+            weight,
+        });
     });
 }
 
@@ -95,7 +102,11 @@ fn several(lab: &mut Lab, ui: &mut Ui, subject: &Subject, selected: &[usize]) {
         let weights = subject.curve.weights();
         let first = weights[selected[0]];
         let same = selected.iter().all(|&point| weights[point].to_bits() == first.to_bits());
-        let label = if same { "Weight of the selected points" } else { "Weight of the selected points, now different" };
+        let label = if same {
+            "Weight of the selected points"
+        } else {
+            "Weight of the selected points, now different"
+        };
         let w = NumberField::new(label, first).width(width).drag(Drag::Factor).check(positive);
         let w = w.show(ui, ("common weight", object));
         if !same {
@@ -167,7 +178,11 @@ fn row(lab: &mut Lab, ui: &mut Ui, subject: &Subject, point: usize, head: f32, w
         });
         let label = format!("Weight of point {point}");
         let w = NumberField::new(&label, weight).width(width).check(positive).show(ui, ("w", object, point));
-        number_field::apply(lab, w.event, "Change weight", |_, weight| Edit::SetWeight { object, point, weight });
+        number_field::apply(lab, w.event, "Change weight", |_, weight| Edit::SetWeight {
+            object,
+            point,
+            weight,
+        });
     });
     if ui.rect_contains_pointer(line.response.rect) {
         lab.hovering = Hovered::Point(object, point);
@@ -178,7 +193,8 @@ fn row(lab: &mut Lab, ui: &mut Ui, subject: &Subject, point: usize, head: f32, w
 fn index(lab: &mut Lab, ui: &mut Ui, subject: &Subject, point: usize, head: f32) {
     let (rect, response) = ui.allocate_exact_size(vec2(head, ui.spacing().interact_size.y), Sense::click());
     let selected = lab.selection.points.contains(&point);
-    response.widget_info(|| WidgetInfo::selected(Role::Button, true, selected, format!("Select point {point}")));
+    response
+        .widget_info(|| WidgetInfo::selected(Role::Button, true, selected, format!("Select point {point}")));
     let lit = lab.hovered == Hovered::Point(subject.object, point);
     if selected || lit {
         let fill = color32(lab.theme.selection.with_opacity(if selected { 0.25 } else { 0.12 }));

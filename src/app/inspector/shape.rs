@@ -46,7 +46,9 @@ fn swatches(lab: &mut Lab, ui: &mut Ui, subject: &Subject) {
         for index in 0..count {
             let (rect, response) = ui.allocate_exact_size(vec2(side, side), Sense::click());
             let chosen = subject.display.color % count == index;
-            response.widget_info(|| WidgetInfo::selected(Role::RadioButton, true, chosen, format!("Colour {}", index + 1)));
+            response.widget_info(|| {
+                WidgetInfo::selected(Role::RadioButton, true, chosen, format!("Colour {}", index + 1))
+            });
             let rim = if chosen {
                 Stroke::new(2.0, ui.visuals().text_color())
             } else if response.hovered() || response.has_focus() {
@@ -54,7 +56,13 @@ fn swatches(lab: &mut Lab, ui: &mut Ui, subject: &Subject) {
             } else {
                 Stroke::NONE
             };
-            ui.painter().rect(rect.shrink(1.0), 4.0, color32(lab.theme.basis_color(index)), rim, StrokeKind::Outside);
+            ui.painter().rect(
+                rect.shrink(1.0),
+                4.0,
+                color32(lab.theme.basis_color(index)),
+                rim,
+                StrokeKind::Outside,
+            );
             if response.clicked() && !chosen {
                 let display = CurveDisplay { color: index, ..subject.display.clone() };
                 lab.edit(Edit::SetDisplay { object: subject.object, display });

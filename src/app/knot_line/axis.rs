@@ -29,7 +29,8 @@ impl Axis {
     /// The axis across `rect`, with the zoom that was chosen for `id`.
     pub(super) fn new(ui: &Ui, id: Id, space: &SplineSpace, rect: Rect) -> Self {
         let (low, high) = extent(space);
-        let window = ui.data(|data| data.get_temp::<Window>(id)).unwrap_or(Window { start: 0.0, length: 1.0 });
+        let window =
+            ui.data(|data| data.get_temp::<Window>(id)).unwrap_or(Window { start: 0.0, length: 1.0 });
         let length = high - low;
         Self {
             low: low + window.start * length,
@@ -70,7 +71,8 @@ fn extent(space: &SplineSpace) -> (f64, f64) {
         return (left - 0.12 * length, right + 0.12 * length);
     }
     let knots = space.knots();
-    let outer = |edge: f64, knot: f64| (edge - knot).abs().clamp(0.02 * length, 0.25 * length) + 0.02 * length;
+    let outer =
+        |edge: f64, knot: f64| (edge - knot).abs().clamp(0.02 * length, 0.25 * length) + 0.02 * length;
     (left - outer(left, knots[0]), right + outer(right, knots[knots.len() - 1]))
 }
 

@@ -29,7 +29,9 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, scene: &Scene, rect: Rect) {
             pos2(rect.left() + pitch * (j + 1) as f32, rect.bottom()),
         );
         let response = ui.interact(cell, ui.make_persistent_id(("bar", j)), Sense::hover());
-        response.widget_info(|| WidgetInfo::labeled(Role::Meter, true, format!("Value of B-spline {k}: {}", compact(value))));
+        response.widget_info(|| {
+            WidgetInfo::labeled(Role::Meter, true, format!("Value of B-spline {k}: {}", compact(value)))
+        });
         if response.hovered() {
             lab.hovering = Hovered::Point(scene.object, k);
         }
@@ -38,7 +40,11 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, scene: &Scene, rect: Rect) {
         let half = (pitch * 0.35).min(9.0);
         let x = cell.center().x;
         let height = (bottom - top) * value.clamp(0.0, 1.0) as f32;
-        painter.rect_filled(Rect::from_min_max(pos2(x - half, bottom - height), pos2(x + half, bottom)), 1.5, color);
+        painter.rect_filled(
+            Rect::from_min_max(pos2(x - half, bottom - height), pos2(x + half, bottom)),
+            1.5,
+            color,
+        );
         let mut font = small.clone();
         let digits = k.to_string();
         font.size = font.size.min(1.6 * (pitch - 2.0) / digits.len() as f32).max(6.0);

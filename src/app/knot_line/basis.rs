@@ -49,7 +49,9 @@ pub(super) fn graphs(curve: &Nurbs<DVec2>, axis: &Axis, t: f64) -> (Vec<Graph>, 
     let (low, high) = axis.visible();
     // A periodic curve repeats at the edges, so the whole period is needed there.
     let (from, to) = if space.is_periodic() { (left, right) } else { (low.max(left), high.min(right)) };
-    let (Ok(mut first), Ok(mut last)) = (space.span(from), space.span(to)) else { return (Vec::new(), false) };
+    let (Ok(mut first), Ok(mut last)) = (space.span(from), space.span(to)) else {
+        return (Vec::new(), false);
+    };
     let too_many = last - first + n + 1 > MOST_FUNCTIONS;
     if too_many && let Ok(span) = space.span(t) {
         first = span.saturating_sub(n).max(n);

@@ -4,8 +4,8 @@
 //! together unless Alt is held. Escape during a drag takes it back.
 
 use eframe::egui::{
-    Align2, CursorIcon, FontId, Id, Key, PointerButton, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, WidgetInfo,
-    pos2, vec2,
+    Align2, CursorIcon, FontId, Id, Key, PointerButton, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui,
+    WidgetInfo, pos2, vec2,
 };
 
 use crate::app::knot_line::Scene;
@@ -105,8 +105,10 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, id: Id, scene: &Scene) {
         && !drag_is_shown
     {
         // Out of sight, but the pointer still holds it.
-        let at = pos2(scene.axis.x(now).clamp(scene.strip.left(), scene.strip.right()), scene.strip.center().y);
-        let response = ui.interact(Rect::from_center_size(at, vec2(2.0, 2.0)), handle, Sense::click_and_drag());
+        let at =
+            pos2(scene.axis.x(now).clamp(scene.strip.left(), scene.strip.right()), scene.strip.center().y);
+        let response =
+            ui.interact(Rect::from_center_size(at, vec2(2.0, 2.0)), handle, Sense::click_and_drag());
         follow(lab, ui, &response, &mut drag);
     }
     ui.data_mut(|data| match drag {
@@ -162,9 +164,12 @@ fn continuity(degree: usize, multiplicity: usize) -> String {
     let digits = order.to_string();
     let raised = digits.chars().filter_map(|digit| {
         let index = digit.to_digit(10)? as usize;
-        ['\u{2070}', '\u{b9}', '\u{b2}', '\u{b3}', '\u{2074}', '\u{2075}', '\u{2076}', '\u{2077}', '\u{2078}', '\u{2079}']
-            .get(index)
-            .copied()
+        [
+            '\u{2070}', '\u{b9}', '\u{b2}', '\u{b3}', '\u{2074}', '\u{2075}', '\u{2076}', '\u{2077}',
+            '\u{2078}', '\u{2079}',
+        ]
+        .get(index)
+        .copied()
     });
     std::iter::once('C').chain(raised).collect()
 }
@@ -178,8 +183,11 @@ fn handle(ui: &Ui, scene: &Scene, stack: &Stack, x: f32, id: Id) -> Response {
     let bottom = marker_place(scene, stack, x, stack.multiplicity - 1).y + 6.0;
     let rect = Rect::from_min_max(pos2(x - 6.0, scene.plot.bottom() - 3.0), pos2(x + 6.0, bottom));
     let response = ui.interact(rect, id, Sense::click_and_drag());
-    let times = if stack.multiplicity > 1 { format!(", {} copies", stack.multiplicity) } else { String::new() };
-    response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, format!("Knot {}{times}", short(stack.value))));
+    let times =
+        if stack.multiplicity > 1 { format!(", {} copies", stack.multiplicity) } else { String::new() };
+    response.widget_info(|| {
+        WidgetInfo::labeled(Role::Slider, true, format!("Knot {}{times}", short(stack.value)))
+    });
     response.on_hover_and_drag_cursor(CursorIcon::ResizeHorizontal)
 }
 
@@ -228,7 +236,10 @@ fn paint(
     let muted = if selected || lit { ink } else { color32(theme.muted_text) };
     let galley = painter.layout_no_wrap(text, font, if ghost { muted.gamma_multiply(0.5) } else { muted });
     let half = 0.5 * galley.size().x;
-    let center = x.clamp(scene.strip.left() + half - 2.0, (scene.strip.right() - half + 2.0).max(scene.strip.left() + half));
+    let center = x.clamp(
+        scene.strip.left() + half - 2.0,
+        (scene.strip.right() - half + 2.0).max(scene.strip.left() + half),
+    );
     if center - half > *label_end + 4.0 {
         let at = Align2::CENTER_BOTTOM.anchor_size(pos2(center, scene.strip.bottom()), galley.size()).min;
         painter.galley(at, galley, muted);
@@ -237,7 +248,14 @@ fn paint(
 }
 
 /// What the mouse does to one stack.
-fn react(lab: &mut Lab, ui: &Ui, scene: &Scene, stack: &Stack, response: &Response, drag: &mut Option<KnotDrag>) {
+fn react(
+    lab: &mut Lab,
+    ui: &Ui,
+    scene: &Scene,
+    stack: &Stack,
+    response: &Response,
+    drag: &mut Option<KnotDrag>,
+) {
     if response.hovered() {
         lab.hovering = Hovered::Knot(scene.object, stack.value);
     }
@@ -271,7 +289,11 @@ fn react(lab: &mut Lab, ui: &Ui, scene: &Scene, stack: &Stack, response: &Respon
     if drag.is_none() && response.hovered() {
         let what = if inside {
             let order = continuity(scene.curve.degree(), stack.multiplicity);
-            format!("Knot {}, multiplicity {}: the curve is {order} here", short(stack.value), stack.multiplicity)
+            format!(
+                "Knot {}, multiplicity {}: the curve is {order} here",
+                short(stack.value),
+                stack.multiplicity
+            )
         } else {
             format!("Knot {}, multiplicity {}", short(stack.value), stack.multiplicity)
         };
@@ -351,7 +373,8 @@ fn menu(lab: &mut Lab, scene: &Scene, stack: &Stack, response: &Response, inside
         }
         ui.horizontal(|ui| {
             ui.label("Move to");
-            let field = NumberField::new("New value of the knot", stack.value).width(90.0).show(ui, "value of knot");
+            let field =
+                NumberField::new("New value of the knot", stack.value).width(90.0).show(ui, "value of knot");
             if let Some(NumberEvent::Typed { to, .. }) = field.event {
                 lab.edit(Edit::MoveDistinctKnot { object, at: stack.value, to });
                 lab.selection.knot = Some(to);

@@ -1,8 +1,8 @@
 //! The basis functions over D, the cursor of the parameter, and what can be done with the mouse on the empty axis.
 
 use eframe::egui::{
-    Align2, Color32, CursorIcon, PointerButton, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, WidgetInfo,
-    pos2, vec2,
+    Align2, Color32, CursorIcon, PointerButton, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui,
+    WidgetInfo, pos2, vec2,
 };
 
 use crate::app::command::Command;
@@ -23,9 +23,20 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, scene: &Scene, response: &Respons
     let (graphs, too_many) = basis::graphs(&scene.curve, &scene.axis, scene.t);
     paint_graphs(lab, ui, scene, &graphs);
     if too_many {
-        let text = format!("{} B-splines: only the active ones are drawn, zoom in to see the others", scene.curve.points().len());
+        let text = format!(
+            "{} B-splines: only the active ones are drawn, zoom in to see the others",
+            scene.curve.points().len()
+        );
         let at = scene.plot.center_top() + vec2(0.0, 4.0);
-        paint_note(ui.painter(), at, Align2::CENTER_TOP, &text, 11.0, lab.theme.muted_text, lab.theme.background);
+        paint_note(
+            ui.painter(),
+            at,
+            Align2::CENTER_TOP,
+            &text,
+            11.0,
+            lab.theme.muted_text,
+            lab.theme.background,
+        );
     }
     cursor(lab, ui, scene);
     interact(lab, ui, scene, response, near);
@@ -40,13 +51,17 @@ fn ground(lab: &Lab, ui: &Ui, scene: &Scene) {
     painter.rect_filled(inside, 0.0, color32(lab.theme.background));
     for (a, b) in [(scene.plot.left(), from), (to, scene.plot.right())] {
         if b > a {
-            hatch(&ui.painter_at(Rect::from_min_max(pos2(a, scene.plot.top()), pos2(b, scene.plot.bottom()))), lab);
+            hatch(
+                &ui.painter_at(Rect::from_min_max(pos2(a, scene.plot.top()), pos2(b, scene.plot.bottom()))),
+                lab,
+            );
         }
     }
     if let Ok(span) = scene.curve.space().span(scene.t) {
         let knots = scene.curve.space().evaluation_knots();
         let (a, b) = (scene.axis.x(knots[span]), scene.axis.x(knots[span + 1]));
-        let active = Rect::from_min_max(pos2(a, scene.plot.top()), pos2(b, scene.plot.bottom())).intersect(scene.plot);
+        let active =
+            Rect::from_min_max(pos2(a, scene.plot.top()), pos2(b, scene.plot.bottom())).intersect(scene.plot);
         painter.rect_filled(active, 0.0, color32(lab.theme.accent.with_opacity(0.06)));
     }
     painter.hline(from..=to, scene.y(1.0), Stroke::new(1.0, color32(lab.theme.grid)));
@@ -99,12 +114,24 @@ fn paint_graphs(lab: &Lab, ui: &Ui, scene: &Scene, graphs: &[basis::Graph]) {
                 (false, false) => 0.55,
             };
             let color = Scene::color(lab, k).gamma_multiply(opacity);
-            let pen = Stroke::new(if lit { 2.8 } else if active { 1.8 } else { 1.3 } * scale, color);
+            let pen = Stroke::new(
+                if lit {
+                    2.8
+                } else if active {
+                    1.8
+                } else {
+                    1.3
+                } * scale,
+                color,
+            );
             for shift in repetitions(scene) {
                 let fade = if shift == 0.0 { 1.0 } else { 0.35 };
                 let pen = Stroke::new(pen.width, pen.color.gamma_multiply(fade));
-                let line: Vec<Pos2> =
-                    graph.points.iter().map(|&(t, value)| pos2(scene.axis.x(t + shift), scene.y(value))).collect();
+                let line: Vec<Pos2> = graph
+                    .points
+                    .iter()
+                    .map(|&(t, value)| pos2(scene.axis.x(t + shift), scene.y(value)))
+                    .collect();
                 if scene.is_lit(lab, k) {
                     fill(&painter, scene, &line, color.gamma_multiply(0.13 * fade));
                 }
@@ -132,7 +159,9 @@ fn fill(painter: &eframe::egui::Painter, scene: &Scene, line: &[Pos2], color: Co
     let mut mesh = eframe::egui::Mesh::default();
     for pair in line.windows(2) {
         let first = mesh.vertices.len() as u32;
-        for at in [pair[0], pair[1], pos2(pair[0].x, scene.plot.bottom()), pos2(pair[1].x, scene.plot.bottom())] {
+        for at in
+            [pair[0], pair[1], pos2(pair[0].x, scene.plot.bottom()), pos2(pair[1].x, scene.plot.bottom())]
+        {
             mesh.colored_vertex(at, color);
         }
         mesh.add_triangle(first, first + 1, first + 2);
@@ -187,7 +216,8 @@ fn interact(lab: &mut Lab, ui: &Ui, scene: &Scene, response: &Response, near: Op
             None => lab.hovering,
         };
     }
-    let pressed = response.interact_pointer_pos().filter(|at| scene.plot.union(scene.strip).x_range().contains(at.x));
+    let pressed =
+        response.interact_pointer_pos().filter(|at| scene.plot.union(scene.strip).x_range().contains(at.x));
     if let Some(pointer) = pressed {
         let parameter = scene.axis.parameter(pointer.x);
         if response.double_clicked() {
@@ -228,7 +258,10 @@ fn menu(lab: &mut Lab, ui: &Ui, scene: &Scene, response: &Response) {
     response.context_menu(|ui| {
         let at = ui.data(|data| data.get_temp::<f64>(place)).unwrap_or(scene.t);
         let inside = scene.curve.space().reduce(at).is_ok();
-        if ui.add_enabled(inside, eframe::egui::Button::new(format!("Insert knot at {}", short(at)))).clicked() {
+        if ui
+            .add_enabled(inside, eframe::egui::Button::new(format!("Insert knot at {}", short(at))))
+            .clicked()
+        {
             insert(lab, scene, at);
             ui.close();
         }

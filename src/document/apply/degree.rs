@@ -2,28 +2,34 @@
 
 use crate::core::bspline::{SplineError, SplineSpace};
 use crate::core::spline_curve::Nurbs;
-use crate::document::apply::knots::changed;
+use crate::document::apply::check_point_count;
+use crate::document::apply::knots::{changed, kept};
 use crate::document::apply::parametrization::{uniform_open, uniform_periodic};
 use crate::document::contents::Document;
 use crate::document::edit::{EditError, MAX_EDIT_DEGREE, Outcome, ShapeChange};
 use crate::document::object::ObjectId;
 
 pub(super) fn elevate(document: &mut Document, object: ObjectId) -> Result<Outcome, EditError> {
-    document.curve_of(object)?;
-    Err(EditError::Unavailable { edit: "Raise degree".to_owned(), reason: "degree elevation is missing" })
+    document.change_curve(object, |curve| {
+        check_degree(curve.degree() + 1)?;
+        check_point_count(curve.points().len() + curve.space().breaks().len())?;
+        kept(curve, curve.elevate_degree()?)
+    })
 }
 
 pub(super) fn reduce(document: &mut Document, object: ObjectId) -> Result<Outcome, EditError> {
-    document.curve_of(object)?;
-    Err(EditError::Unavailable { edit: "Lower degree".to_owned(), reason: "degree reduction is missing" })
+    document.change_curve(object, |curve| {
+        check_degree(curve.degree() - 1)?;
+        let reduction = curve.reduce_degree()?;
+        let (deviation, at) = (Some(reduction.deviation.upper), Some(reduction.deviation.at));
+        Ok((reduction.curve, ShapeChange::Changed { deviation, at }))
+    })
 }
 
 /// Same control points, uniform knots over the same interval. An open curve that does not interpolate its end points
 /// keeps simple end knots.
 pub(super) fn set(document: &mut Document, object: ObjectId, degree: usize) -> Result<Outcome, EditError> {
-    if !(1..=MAX_EDIT_DEGREE).contains(&degree) {
-        return Err(EditError::DegreeOutsideWindow { degree });
-    }
+    check_degree(degree)?;
     document.change_curve(object, |curve| {
         if degree == curve.degree() {
             return Ok((curve.clone(), ShapeChange::None));
@@ -49,6 +55,14 @@ pub(super) fn set(document: &mut Document, object: ObjectId, degree: usize) -> R
     })
 }
 
+fn check_degree(degree: usize) -> Result<(), EditError> {
+    if !(1..=MAX_EDIT_DEGREE).contains(&degree) {
+        return Err(EditError::DegreeOutsideWindow { degree });
+    }
+    Ok(())
+}
+
+/// Equally distant knots, simple at both ends, over `[left, right]`.
 fn simple_uniform(degree: usize, count: usize, left: f64, right: f64) -> Result<SplineSpace, EditError> {
     let intervals = (count - degree) as f64;
     let step = (right - left) / intervals;

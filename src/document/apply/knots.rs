@@ -2,27 +2,37 @@
 
 use glam::DVec2;
 
-use crate::core::spline_curve::Nurbs;
+use crate::core::spline_curve::{Nurbs, deviation};
+use crate::document::apply::check_point_count;
 use crate::document::apply::parametrization::with_knots;
 use crate::document::contents::Document;
 use crate::document::edit::{EditError, Outcome, ShapeChange};
 use crate::document::object::ObjectId;
 
+/// Curves with more points are not measured when their shape changes: the measurement would halt a drag.
+const MOST_MEASURED_POINTS: usize = 2000;
+
 pub(super) fn insert(document: &mut Document, object: ObjectId, at: f64) -> Result<Outcome, EditError> {
-    unavailable(document, object, format!("Insert knot {at}"))
+    document.change_curve(object, |curve| kept(curve, curve.insert_knot(at)?))
 }
 
 pub(super) fn remove(document: &mut Document, object: ObjectId, at: f64) -> Result<Outcome, EditError> {
-    unavailable(document, object, format!("Remove knot {at}"))
+    check_finite(at)?;
+    document.change_curve(object, |curve| {
+        if curve.space().multiplicity(curve.space().reduce(at)?) == 0 {
+            return Err(EditError::NotAKnot { object, at });
+        }
+        let removal = curve.remove_knot(at)?;
+        let shape = changed(curve, &removal.curve);
+        Ok((removal.curve, shape))
+    })
 }
 
 pub(super) fn refine_uniformly(document: &mut Document, object: ObjectId) -> Result<Outcome, EditError> {
-    unavailable(document, object, "Refine uniformly".to_owned())
-}
-
-fn unavailable(document: &Document, object: ObjectId, edit: String) -> Result<Outcome, EditError> {
-    document.curve_of(object)?;
-    Err(EditError::Unavailable { edit, reason: "knot insertion is missing" })
+    document.change_curve(object, |curve| {
+        check_point_count(curve.points().len() + curve.space().breaks().len() - 1)?;
+        kept(curve, curve.refine_uniformly()?)
+    })
 }
 
 /// One copy of a knot moves; the control points stay.
@@ -87,23 +97,51 @@ pub(super) fn move_distinct(
     })
 }
 
+/// All knots are new. In the (n+1)-fold convention the outermost knot repeats an end of D once more; as no value depends on
+/// it, it goes one interval length outside.
 pub(super) fn set(document: &mut Document, object: ObjectId, knots: &[f64]) -> Result<Outcome, EditError> {
-    document.change_curve(object, |curve| replace_knots(curve, knots.to_vec()))
+    document.change_curve(object, |curve| {
+        let mut knots = knots.to_vec();
+        let (n, count) = (curve.degree(), curve.points().len());
+        if !curve.space().is_periodic() && knots.len() == count + n + 1 {
+            let last = knots.len() - 1;
+            if knots[..=n].iter().all(|&knot| knot == knots[0]) {
+                knots[0] -= knots[n + 1] - knots[n];
+            }
+            if knots[count..].iter().all(|&knot| knot == knots[last]) {
+                knots[last] += knots[count] - knots[count - 1];
+            }
+        }
+        replace_knots(curve, knots)
+    })
 }
 
-fn replace_knots(
-    curve: &Nurbs<DVec2>,
-    knots: Vec<f64>,
-) -> Result<(Nurbs<DVec2>, ShapeChange), EditError> {
+fn replace_knots(curve: &Nurbs<DVec2>, knots: Vec<f64>) -> Result<(Nurbs<DVec2>, ShapeChange), EditError> {
     let space = with_knots(curve.space(), knots)?;
     let new = Nurbs::new(space, curve.points().to_vec(), curve.weights().to_vec())?;
     let shape = changed(curve, &new);
     Ok((new, shape))
 }
 
+/// `new` with the measured proof that it is `old`.
+pub(super) fn kept(
+    old: &Nurbs<DVec2>,
+    new: Nurbs<DVec2>,
+) -> Result<(Nurbs<DVec2>, ShapeChange), EditError> {
+    let deviation = deviation(old, &new)?.upper;
+    Ok((new, ShapeChange::Kept { deviation }))
+}
+
 /// What to say about a change that need not keep the shape.
 pub(super) fn changed(old: &Nurbs<DVec2>, new: &Nurbs<DVec2>) -> ShapeChange {
-    if old == new { ShapeChange::None } else { ShapeChange::Changed { deviation: None, at: None } }
+    if old == new {
+        return ShapeChange::None;
+    }
+    if old.points().len().max(new.points().len()) > MOST_MEASURED_POINTS {
+        return ShapeChange::Changed { deviation: None, at: None };
+    }
+    let measured = deviation(old, new).ok();
+    ShapeChange::Changed { deviation: measured.map(|found| found.upper), at: measured.map(|found| found.at) }
 }
 
 fn check_finite(value: f64) -> Result<(), EditError> {

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::core::bspline::SplineSpace;
 use crate::core::spline_curve::Nurbs;
-use crate::document::apply::knots::changed;
+use crate::document::apply::knots::{changed, kept};
 use crate::document::contents::Document;
 use crate::document::edit::{EditError, Outcome, ShapeChange};
 use crate::document::object::ObjectId;
@@ -27,8 +27,21 @@ pub(super) fn open(document: &mut Document, object: ObjectId) -> Result<Outcome,
         if !curve.space().is_periodic() {
             return Ok((curve.clone(), ShapeChange::None));
         }
-        Err(EditError::Unavailable { edit: "Open curve".to_owned(), reason: "the cut needs knot insertion" })
+        kept(curve, cut(curve)?)
     })
+}
+
+/// The closed curve cut at `ξ₀`: with `ξ₀` n-fold, the unrolled knots of one period interpolate both ends.
+fn cut(curve: &Nurbs<DVec2>) -> Result<Nurbs<DVec2>, EditError> {
+    let n = curve.degree();
+    let start = curve.space().knots()[0];
+    let copies = vec![start; n - curve.space().multiplicity(start)];
+    let curve = curve.insert_knots(&copies)?;
+    let space = curve.space();
+    let indices = || (0..space.evaluation_dimension()).map(|k| space.coefficient_index(k));
+    let points = indices().map(|k| curve.points()[k]).collect();
+    let weights = indices().map(|k| curve.weights()[k]).collect();
+    Ok(Nurbs::new(SplineSpace::new(n, space.evaluation_knots().to_vec())?, points, weights)?)
 }
 
 /// The same curve run through the other way over the same interval: `x ↦ ξₙ + ξₘ − x`, or `x ↦ 2ξ₀ − x` if closed.
