@@ -1,28 +1,9 @@
-<<<<<<< HEAD
-//! The command line: which window or headless job is asked for, and what it says.
-
-use std::fmt;
-=======
 //! The command line: opens the window, or does one job without it.
 
->>>>>>> app-shell
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-<<<<<<< HEAD
-use clap::builder::PossibleValuesParser;
-use clap::{Parser, Subcommand};
-use glam::DVec2;
-use spline_lab::course;
-use spline_lab::document::{self, Content, Document, EXTENSION, Object, Saved};
-use spline_lab::exchange::by_ending::{self, ByEndingError, FIGURE_ENDINGS, FigureFormat, read_document};
-use spline_lab::figure::composition::compose;
-use spline_lab::figure::picture::Viewport;
-use spline_lab::figure::theme::Theme;
-
-/// Points (pt) in a millimetre.
-=======
 use clap::{Parser, Subcommand, ValueEnum};
 use glam::DVec2;
 
@@ -34,25 +15,11 @@ use crate::figure::picture::Viewport;
 use crate::figure::theme::Theme;
 
 /// Points (1/72 inch) in a millimetre.
->>>>>>> app-shell
 const POINTS_PER_MM: f64 = 72.0 / 25.4;
 
 /// Room around the objects of a figure, in pt.
 const MARGIN: f64 = 24.0;
 
-<<<<<<< HEAD
-/// A figure is at least this part of its width high, and at most the second.
-const HEIGHT_OF_WIDTH: (f64, f64) = (0.3, 1.5);
-
-/// Take hold of splines: an interactive laboratory for B-splines.
-#[derive(Debug, Parser)]
-#[command(name = "spline-lab", version, about, args_conflicts_with_subcommands = true)]
-struct CommandLine {
-    #[command(subcommand)]
-    job: Option<Job>,
-    /// The document to open in the window: a .spline file, or an SVG that the lab wrote.
-    file: Option<PathBuf>,
-=======
 #[derive(Debug, Parser)]
 #[command(name = "spline-lab", version, about = "Take hold of splines", args_conflicts_with_subcommands = true)]
 struct Arguments {
@@ -60,66 +27,10 @@ struct Arguments {
     file: Option<PathBuf>,
     #[command(subcommand)]
     job: Option<Job>,
->>>>>>> app-shell
 }
 
 #[derive(Debug, Subcommand)]
 enum Job {
-<<<<<<< HEAD
-    /// Write a figure of a document as SVG, PDF or PNG.
-    Figure {
-        /// The document.
-        file: PathBuf,
-        /// The figure; its ending says the format: .svg, .pdf or .png.
-        #[arg(short, long, value_name = "OUT")]
-        output: PathBuf,
-        /// Width of the page in mm.
-        #[arg(long, value_name = "MM", default_value_t = 160.0, allow_negative_numbers = true)]
-        width: f64,
-        /// The look.
-        #[arg(long, value_parser = PossibleValuesParser::new(["light", "dark", "presentation"]), default_value = "light")]
-        theme: String,
-        /// Pixels of a PNG per point (1/72 inch).
-        #[arg(long, value_name = "N", default_value_t = 2.0, allow_negative_numbers = true)]
-        scale: f64,
-    },
-    /// Convert between a document and an SVG that holds it.
-    Convert {
-        /// The file to read: .spline or .svg.
-        input: PathBuf,
-        /// The file to write: .spline or .svg.
-        output: PathBuf,
-    },
-    /// Check a document and list what is in it.
-    Check {
-        /// The document.
-        file: PathBuf,
-    },
-    /// List the lessons.
-    Lessons,
-}
-
-/// Why a job was not done.
-#[derive(Debug)]
-enum Failure {
-    /// A file could not be read or written.
-    File(ByEndingError),
-    /// The document could not be saved.
-    Document(document::FileError),
-    /// What was asked for is not possible.
-    Request(String),
-    /// The answer could not be printed.
-    Output(io::Error),
-}
-
-impl fmt::Display for Failure {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::File(error) => error.fmt(f),
-            Self::Document(error) => error.fmt(f),
-            Self::Request(text) => f.write_str(text),
-            Self::Output(error) => write!(f, "the answer could not be printed: {error}"),
-=======
     /// Writes a figure of a document: SVG, PDF or PNG by the ending of OUT
     Figure {
         /// The document
@@ -169,48 +80,10 @@ impl Look {
             Self::Light => Theme::light(),
             Self::Dark => Theme::dark(),
             Self::Presentation => Theme::presentation(),
->>>>>>> app-shell
         }
     }
 }
 
-<<<<<<< HEAD
-impl From<ByEndingError> for Failure {
-    fn from(error: ByEndingError) -> Self {
-        Self::File(error)
-    }
-}
-
-impl From<io::Error> for Failure {
-    fn from(error: io::Error) -> Self {
-        Self::Output(error)
-    }
-}
-
-/// Does what the arguments of the program ask for. The exit code is 0 if it was done, 1 if not, and 2 if the arguments
-/// make no sense.
-pub(crate) fn run() -> ExitCode {
-    let asked = CommandLine::parse();
-    let mut output = io::stdout().lock();
-    let done = match asked.job {
-        None => {
-            // The window writes to the terminal too when it has something to say.
-            drop(output);
-            open_window(asked.file)
-        }
-        Some(Job::Figure { file, output: figure, width, theme, scale }) => write_figure(&file, &figure, width, &theme, scale),
-        Some(Job::Convert { input, output }) => convert(&input, &output),
-        Some(Job::Check { file }) => check(&file, &mut output),
-        Some(Job::Lessons) => list_lessons(&mut output),
-    };
-    match done {
-        Ok(()) => ExitCode::SUCCESS,
-        // Whoever reads our answer has heard enough, as `head` does.
-        Err(Failure::Output(error)) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
-        Err(failure) => {
-            // There is no one else to tell when this fails.
-            let _ = writeln!(io::stderr(), "spline-lab: {failure}");
-=======
 /// Does what the arguments of the program ask for.
 pub fn run() -> ExitCode {
     let arguments = Arguments::parse();
@@ -228,23 +101,11 @@ pub fn run() -> ExitCode {
         Err(message) => {
             // Where standard error is closed there is nobody to tell.
             let _ = writeln!(io::stderr(), "spline-lab: {message}");
->>>>>>> app-shell
             ExitCode::FAILURE
         }
     }
 }
 
-<<<<<<< HEAD
-#[cfg(feature = "app")]
-fn open_window(file: Option<PathBuf>) -> Result<(), Failure> {
-    spline_lab::app::run(file).map_err(|error| {
-        Failure::Request(format!(
-            "the window could not be opened: {error}\n\
-             It needs a display and a graphics driver. On Debian or Ubuntu, mesa-vulkan-drivers has one for every\n\
-             machine: apt install mesa-vulkan-drivers\n\
-             The commands figure, convert, check and lessons work without; see spline-lab --help."
-        ))
-=======
 fn say(text: &str) -> Result<(), String> {
     match writeln!(io::stdout(), "{text}") {
         // A reader that has seen enough, such as head, is no failure.
@@ -262,73 +123,10 @@ fn open_window(file: Option<PathBuf>) -> Result<(), String> {
              drivers do, on Debian: apt install mesa-vulkan-drivers libgl1-mesa-dri\n\
              These work without a window: spline-lab figure, convert, check, lessons"
         )
->>>>>>> app-shell
     })
 }
 
 #[cfg(not(feature = "app"))]
-<<<<<<< HEAD
-fn open_window(_file: Option<PathBuf>) -> Result<(), Failure> {
-    Err(Failure::Request(
-        "this program was built without the window; build it with: cargo build --release --features app\n\
-         The commands figure, convert, check and lessons work without; see spline-lab --help."
-            .to_owned(),
-    ))
-}
-
-fn write_figure(file: &Path, output: &Path, width: f64, theme: &str, scale: f64) -> Result<(), Failure> {
-    for (option, value) in [("--width", width), ("--scale", scale)] {
-        if !(value.is_finite() && value > 0.0) {
-            return Err(Failure::Request(format!("{option} is {value}, not a positive number")));
-        }
-    }
-    let format = FigureFormat::of(output)?;
-    let Saved { document, view } = read_document(file)?;
-    let theme = Theme::by_name(theme).ok_or_else(|| Failure::Request(format!("there is no look {theme:?}")))?;
-    let viewport = fitting(&document, width * POINTS_PER_MM);
-    let picture = compose(&document, &view, &theme, &viewport);
-    let bytes = by_ending::figure(format, &picture, &viewport, &document, &view, scale)?;
-    Ok(by_ending::write_file(output, &bytes)?)
-}
-
-/// A page `width` pt wide that shows all visible objects.
-fn fitting(document: &Document, width: f64) -> Viewport {
-    let (low, high) = document.bounding_box().unwrap_or((DVec2::ZERO, DVec2::ONE));
-    let extent = high - low;
-    // The margin gives way on a page that is hardly wider than it.
-    let margin = MARGIN.min(0.2 * width);
-    let inside = if extent.x > 0.0 { (width - 2.0 * margin) * extent.y / extent.x } else { width };
-    let height = (inside + 2.0 * margin).clamp(HEIGHT_OF_WIDTH.0 * width, HEIGHT_OF_WIDTH.1 * width);
-    Viewport::fitting(low, high, DVec2::new(width, height), margin)
-}
-
-fn convert(input: &Path, output: &Path) -> Result<(), Failure> {
-    let ending = output.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
-    if ending != EXTENSION && ending != "svg" {
-        let hint = if FIGURE_ENDINGS.contains(&ending.as_str()) {
-            "; for a figure use: spline-lab figure FILE -o OUT"
-        } else {
-            ""
-        };
-        return Err(Failure::Request(format!(
-            "{}: the ending {ending:?} cannot be written; convert reads and writes .{EXTENSION} and .svg{hint}",
-            output.display()
-        )));
-    }
-    if ending == "svg" {
-        return write_figure(input, output, 160.0, "light", 1.0);
-    }
-    let saved = read_document(input)?;
-    document::save(output, &saved.document, &saved.view).map_err(Failure::Document)
-}
-
-fn check(file: &Path, output: &mut impl Write) -> Result<(), Failure> {
-    let Saved { document, .. } = read_document(file)?;
-    let count = document.len();
-    writeln!(output, "{}: {count} {}", file.display(), if count == 1 { "object" } else { "objects" })?;
-    for object in document.objects() {
-        writeln!(output, "  {}", describe(object))?;
-=======
 fn open_window(_file: Option<PathBuf>) -> Result<(), String> {
     Err("this build has no window; build with: cargo build --release --features app".to_owned())
 }
@@ -397,28 +195,10 @@ fn check(file: &Path) -> Result<(), String> {
             space.knots().len(),
             if object.visible { "" } else { ", hidden" },
         ))?;
->>>>>>> app-shell
     }
     Ok(())
 }
 
-<<<<<<< HEAD
-fn describe(object: &Object) -> String {
-    let Object { id, name, content, visible, .. } = object;
-    let Content::Curve(curve) = content;
-    let ends = if curve.space().is_periodic() { "closed" } else { "open" };
-    let kind = if curve.is_polynomial() { "polynomial" } else { "rational" };
-    let (degree, points, knots) = (curve.degree(), curve.points().len(), curve.space().knots().len());
-    let hidden = if *visible { "" } else { ", hidden" };
-    format!("{} {name:?}: curve of degree {degree}, {points} points, {knots} knots, {ends}, {kind}{hidden}", id.0)
-}
-
-fn list_lessons(output: &mut impl Write) -> Result<(), Failure> {
-    for lesson in course::lessons() {
-        writeln!(output, "{}", lesson.heading())?;
-    }
-    Ok(())
-=======
 fn list_lessons() -> Result<(), String> {
     lessons().iter().try_for_each(|lesson| say(&lesson.heading()))
 }
@@ -447,5 +227,4 @@ mod tests {
             assert!(page(&document, width, None).is_err(), "width {width}");
         }
     }
->>>>>>> app-shell
 }

@@ -1,9 +1,7 @@
-//! The program `spline-lab`: the window, and jobs that need none. See `spline-lab --help`.
-
-mod command_line;
+//! Spline Lab: `spline-lab [FILE]` opens the window, `spline-lab --help` lists the jobs that need none.
 
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    command_line::run()
+    spline_lab::command_line::run()
 }

@@ -78,9 +78,9 @@ fn what_cannot_be_done_is_said_and_ends_with_1() {
         (&["check", "missing.spline"], "missing.spline"),
         (&["check", "Cargo.toml"], ".spline"),
         (&["figure", "scene.spline", "-o", "figure.tiff"], ".pdf"),
-        (&["figure", "scene.spline", "-o", "figure.svg", "--width", "0"], "--width"),
-        (&["figure", "scene.spline", "-o", "figure.svg", "--width", "-3"], "--width"),
-        (&["figure", "scene.spline", "-o", "figure.png", "--scale", "NaN"], "--scale"),
+        (&["figure", "scene.spline", "-o", "figure.svg", "--width", "0"], "width"),
+        (&["figure", "scene.spline", "-o", "figure.svg", "--width=-3"], "width"),
+        (&["figure", "scene.spline", "-o", "figure.png", "--scale", "NaN"], "resolution"),
     ] {
         let output = run(folder.path(), arguments);
         let said = text(&output.stderr);

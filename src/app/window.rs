@@ -130,17 +130,20 @@ impl LabApp {
     }
 
     fn side_panels(&mut self, ui: &mut Ui) {
-        let lab = &mut self.lab;
+        let (lab, files) = (&mut self.lab, &mut self.files);
         let open = |lab: &Lab, name: &str| lab.view.panels.get(name).copied().unwrap_or(true);
         if open(lab, LEFT_PANEL) {
-            Panel::left(LEFT_PANEL).default_size(184.0).size_range(140.0..=360.0).show(ui, |ui| {
+            let panel = Panel::left(LEFT_PANEL).default_size(files.panel_size(LEFT_PANEL, 184.0));
+            let shown = panel.size_range(140.0..=360.0).show(ui, |ui| {
                 object_list::show(lab, ui);
                 ui.add_space(10.0);
                 lesson_panel::show_list(lab, ui);
             });
+            files.note_panel_size(LEFT_PANEL, shown.response.rect.width());
         }
         if open(lab, RIGHT_PANEL) {
-            Panel::right(RIGHT_PANEL).default_size(290.0).size_range(230.0..=560.0).show(ui, |ui| {
+            let panel = Panel::right(RIGHT_PANEL).default_size(files.panel_size(RIGHT_PANEL, 290.0));
+            let shown = panel.size_range(230.0..=560.0).show(ui, |ui| {
                 ui.add_space(4.0);
                 ui.horizontal(|ui| {
                     for (page, text) in
@@ -157,6 +160,7 @@ impl LabApp {
                     SidePage::Lesson => lesson_panel::show(lab, ui),
                 }
             });
+            files.note_panel_size(RIGHT_PANEL, shown.response.rect.width());
         } else {
             lab.stepper.open = false;
         }

@@ -66,14 +66,7 @@ pub(crate) struct Files {
 }
 
 impl Files {
-    /// Reads the preferences of the person, opens `file`, and looks for work that a crash left behind.
-    pub(crate) fn new(file: Option<PathBuf>, lab: &mut Lab) -> Self {
-        // Tests must not touch the files of whoever runs them.
-        let directories = if cfg!(test) { Directories::none() } else { Directories::of_user() };
-        Self::in_directories(file, lab, directories)
-    }
-
-    /// As [`Self::new`], with folders of its own.
+    /// Reads the preferences in `directories`, opens `file`, and looks for work that a crash left behind.
     pub(crate) fn in_directories(file: Option<PathBuf>, lab: &mut Lab, directories: Directories) -> Self {
         let (preferences, message) =
             directories.config.as_deref().map_or_else(Default::default, preferences::load);
