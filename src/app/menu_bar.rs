@@ -6,7 +6,7 @@ use eframe::egui::{self, Button, MenuBar, RichText, Ui};
 
 use crate::app::command::{Command, Menu};
 use crate::app::command_state::{is_on, is_possible};
-use crate::app::files::Files;
+use crate::app::files::{self, Files};
 use crate::app::lab::Lab;
 
 /// Shows the menus; what they do is pushed to `lab.commands` or asked of `files`.
@@ -25,6 +25,9 @@ pub(crate) fn show(lab: &mut Lab, files: &mut Files, ui: &mut Ui) {
                         recent_files(files, ui);
                         recovered(files, ui);
                     }
+                }
+                if menu == Menu::Lesson {
+                    lesson_entries(lab, ui);
                 }
             });
         }
@@ -109,6 +112,21 @@ fn recent_files(files: &mut Files, ui: &mut Ui) {
 fn recovered(files: &mut Files, ui: &mut Ui) {
     if files.has_recovered() && ui.button("Bring back documents…").on_hover_text(RECOVERED_HINT).clicked() {
         files.offer_recovered();
+        ui.close();
+    }
+}
+
+fn lesson_entries(lab: &mut Lab, ui: &mut Ui) {
+    let in_lesson = lab.lesson.is_some();
+    ui.separator();
+    let restart = ui.add_enabled(in_lesson, Button::new("Start this lesson over"));
+    if restart.on_hover_text("Show the lesson's document as it was at first").clicked() {
+        files::restart_lesson(lab);
+        ui.close();
+    }
+    let back = ui.add_enabled(lab.shelf.own.is_some(), Button::new("Back to my document"));
+    if back.on_hover_text("Leave the lesson; your document is as you left it").clicked() {
+        files::back_to_document(lab);
         ui.close();
     }
 }

@@ -160,7 +160,7 @@ mod tests {
     use egui_kittest::kittest::Queryable as _;
 
     use super::*;
-    use crate::app::test_bench::first_scene_lab as lab;
+    use crate::app::test_bench::lab;
 
     fn harness() -> Harness<'static, (Palette, Lab)> {
         let mut palette = Palette::default();

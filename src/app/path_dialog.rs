@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use eframe::egui::text::{CCursorRange, CCursor};
+use eframe::egui::text::CCursorRange;
 use eframe::egui::{self, Align, Button, Id, Key, Layout, Modal, Modifiers, RichText, ScrollArea, TextEdit, Ui};
 
 use crate::app::file_dialog::{Answer, Purpose, Request, with_extension};
@@ -160,18 +160,16 @@ impl PathDialog {
                 Purpose::Save => "Name or path to write to",
             };
             let field = TextEdit::singleline(&mut self.typed).id(id).hint_text(hint).desired_width(f32::INFINITY);
-            let before = (self.fresh, self.complaint.is_some());
             let response = ui.add(field).labelled_by(label.id);
             if response.changed() {
                 self.complaint = None;
                 self.replace = None;
             }
-            if before.0 {
+            if self.fresh {
                 response.request_focus();
-                // The name without its ending is selected: typing replaces it.
-                let end = Path::new(&self.typed).file_stem().map_or(0, |stem| stem.to_string_lossy().chars().count());
+                // The name is selected: typing replaces it.
                 let mut state = TextEdit::load_state(ui.ctx(), id).unwrap_or_default();
-                state.cursor.set_char_range(Some(CCursorRange::two(CCursor::default(), CCursor::new(end))));
+                state.cursor.set_char_range(Some(CCursorRange::select_all_str(&self.typed)));
                 TextEdit::store_state(ui.ctx(), id, state);
             }
         });
@@ -369,7 +367,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         fs::write(folder.path().join("wave.spline"), "precious").unwrap();
         let mut harness = asking(Purpose::Save, folder.path(), "untitled.spline");
-        // The stem is selected, so that typing leaves the ending.
+        // The offered name is selected, so that typing replaces it.
         type_path(&mut harness, "wave");
         harness.key_press(Key::Enter);
         harness.run();

@@ -128,7 +128,7 @@ mod tests {
     #[test]
     fn a_damaged_file_gives_the_standard_ones_and_is_kept() {
         let folder = tempfile::tempdir().unwrap();
-        for (number, damage) in ["{\"theme\": \"dar", "{\"theme\": 7}", "[]", "\u{0}"].iter().enumerate() {
+        for (number, damage) in ["{\"theme\": \"dar", "{\"theme\": 7}", "[7]", "\u{0}"].iter().enumerate() {
             fs::write(folder.path().join(FILE_NAME), damage).unwrap();
             let (loaded, message) = load(folder.path());
             assert_eq!(loaded, Preferences::default(), "from {damage:?}");

@@ -110,7 +110,7 @@ mod tests {
     use egui_kittest::kittest::Queryable as _;
 
     use super::*;
-    use crate::app::test_bench::first_scene_lab as lab;
+    use crate::app::test_bench::lab;
 
     #[test]
     fn every_command_with_a_key_is_on_the_sheet() {

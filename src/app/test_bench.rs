@@ -9,7 +9,7 @@ use crate::app::lab::Lab;
 use crate::app::look;
 use crate::core::bspline::SplineSpace;
 use crate::core::spline_curve::Nurbs;
-use crate::document::{CurveDisplay, Document, Edit, View, first_scene};
+use crate::document::{CurveDisplay, Document, Edit, View};
 
 /// A lab with the curve of degree 3 over the knots −1 0 0 0 1 2 3 4 4 4 5, selected.
 pub(crate) fn lab() -> Lab {
@@ -24,16 +24,8 @@ pub(crate) fn lab() -> Lab {
 pub(crate) fn lab_with(curve: Nurbs<DVec2>) -> Lab {
     let mut document = Document::new();
     let edit = Edit::AddCurve { name: "Wave".to_owned(), curve, display: CurveDisplay::default() };
-    let created = document.apply(&edit).unwrap().created;
-    let mut lab = Lab::new(document, View::default());
-    lab.selection.object = created.first().copied();
-    lab
-}
-
-/// The lab with the first scene.
-pub(crate) fn first_scene_lab() -> Lab {
-    let (document, view) = first_scene();
-    Lab::new(document, view)
+    document.apply(&edit).unwrap();
+    Lab::new(document, View::default())
 }
 
 /// The knots of the selected curve.
