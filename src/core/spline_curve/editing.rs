@@ -72,9 +72,9 @@ impl<P: Projective> Nurbs<P> {
         let (left, right) = space.parameter_interval();
         // Exact at both ends, so that the interval stays what it was.
         let mirrored = |knot: f64| {
-            if knot <= left && knot >= left {
+            if knot.to_bits() == left.to_bits() {
                 right
-            } else if knot <= right && knot >= right {
+            } else if knot.to_bits() == right.to_bits() {
                 left
             } else {
                 left + (right - knot)
