@@ -6,8 +6,9 @@ use crate::core::bspline::SplineSpace;
 use crate::core::spline_curve::Nurbs;
 use crate::document::apply::knots::{changed, kept};
 use crate::document::contents::Document;
-use crate::document::edit::{EditError, Outcome, ShapeChange};
+use crate::document::edit_error::EditError;
 use crate::document::object::ObjectId;
+use crate::document::outcome::{Outcome, ShapeChange};
 
 pub(super) fn close(document: &mut Document, object: ObjectId) -> Result<Outcome, EditError> {
     document.change_curve(object, |curve| {
