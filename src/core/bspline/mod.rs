@@ -1,9 +1,34 @@
 //! Chapter 4: B-splines, spline spaces, and the one spline type.
+//!
+//! | file | what |
+//! |---|---|
+//! | `basis` | 4.1 the recurrence, single B-splines and the active ones of a space |
+//! | `derivative` | 4.2, 4.5 derivatives as splines and as sums that may jump |
+//! | `space` | 4.4, 4.6 degree and knots that fit each other |
+//! | `builders`, `multiple_end_knots` | 4.4 spaces from breaks, and from the knots of other programs |
+//! | `uniform` | 4.4 Taylor coefficients of the uniform B-spline |
+//! | `piecewise` | 4.4 coefficients of piecewise polynomials and Hermite data |
+//! | `spline` | 4.5 splines and de Boor's algorithm |
+//! | `integral` | 4.5 antiderivative, integral, mean |
+//! | `unroll` | 4.6 a period as an open spline |
 
+mod basis;
+mod builders;
+mod derivative;
 mod error;
+mod integral;
+mod multiple_end_knots;
+mod piecewise;
 mod space;
 mod spline;
+mod uniform;
+mod unroll;
 
+pub use basis::{BasisTriangle, basis_function, basis_segments};
+pub use builders::EndKnots;
+pub use derivative::BSplineSum;
 pub use error::{Side, SplineError};
+pub use piecewise::PolynomialPiece;
 pub use space::{DistinctKnot, MAX_DEGREE, SplineSpace};
 pub use spline::{DeBoorScheme, Spline};
+pub use uniform::{uniform_evaluate, uniform_taylor};

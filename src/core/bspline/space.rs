@@ -295,7 +295,7 @@ fn check_degree(degree: usize) -> Result<(), SplineError> {
     }
 }
 
-fn check_nondecreasing(knots: &[f64]) -> Result<(), SplineError> {
+pub(super) fn check_nondecreasing(knots: &[f64]) -> Result<(), SplineError> {
     if let Some(index) = knots.iter().position(|knot| !knot.is_finite()) {
         return Err(SplineError::NonFinite { what: "knot", index, value: knots[index] });
     }

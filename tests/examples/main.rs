@@ -1,0 +1,52 @@
+//! The examples of the specification, asserted by id: every expected number of every section built so far.
+
+mod chapter2;
+mod chapter4;
+mod chapter6;
+mod example;
+
+use std::collections::BTreeMap;
+use std::io::Write as _;
+
+use example::Example;
+
+/// The sections built so far. An example of one of them without a test is a failure.
+const SECTIONS: [&str; 6] = ["2.1", "2.3", "4.1", "4.4", "4.5", "6.1"];
+
+/// What computes an example and compares.
+type Check = fn(&Example);
+
+#[test]
+fn every_example_of_the_sections_built_is_asserted() {
+    let files = [include_str!("../data/examples.json"), include_str!("../data/examples_beyond.json")];
+    let examples: Vec<Example> = files
+        .iter()
+        .flat_map(|text| serde_json::from_str::<Vec<serde_json::Value>>(text).expect("the file is a list"))
+        .map(|entry| Example::new(&entry))
+        .collect();
+    let checks: BTreeMap<&str, Check> =
+        [chapter2::CHECKS, chapter4::CHECKS, chapter6::CHECKS].concat().into_iter().collect();
+    let mut wrong = Vec::new();
+    for id in checks.keys() {
+        if !examples.iter().any(|example| example.id == *id) {
+            wrong.push(format!("{id}: there is a test but no such example"));
+        }
+    }
+    let mut asserted = 0;
+    for example in &examples {
+        let Some(check) = checks.get(example.id.as_str()) else {
+            if SECTIONS.contains(&example.section.as_str()) {
+                wrong.push(format!("{}: no test", example.id));
+            }
+            continue;
+        };
+        check(example);
+        let verdict = example.verdict();
+        asserted += usize::from(verdict.is_empty());
+        wrong.extend(verdict);
+    }
+    // Written past the test harness, which would keep it to itself.
+    let line = format!("spec examples: {asserted} asserted of {}\n", examples.len());
+    std::io::stdout().write_all(line.as_bytes()).expect("standard output takes a line");
+    assert!(wrong.is_empty(), "{} faults:\n{}", wrong.len(), wrong.join("\n"));
+}
