@@ -1,5 +1,7 @@
 //! Damaged, truncated, newer and hostile files: an error that says where and what, never a panic, never another document.
 
+#![allow(clippy::unwrap_used, reason = "the functions that prepare a test fail it")]
+
 use spline_lab::document::{
     Document, FileError, MAX_FILE_BYTES, View, first_scene, from_json, load, to_json,
 };
