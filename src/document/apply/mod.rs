@@ -98,7 +98,7 @@ impl Document {
             Edit::SetClosed { object, closed: true } => parametrization::close(self, *object),
             Edit::SetClosed { object, closed: false } => parametrization::open(self, *object),
             Edit::Reverse { object } => {
-                self.change_curve(*object, |curve| Ok((parametrization::reversed(curve)?, ShapeChange::None)))
+                self.change_curve(*object, |curve| Ok((curve.reversed()?, ShapeChange::None)))
             }
             Edit::ReplaceCurve { object, curve, .. } => {
                 check_point_count(curve.points().len())?;
