@@ -1,5 +1,7 @@
 //! Damaged, truncated, newer and hostile files: an error that says where and what, never a panic, never another document.
 
+#![allow(clippy::unwrap_used, reason = "the functions that prepare a test fail it")]
+
 use spline_lab::document::{
     Document, FileError, MAX_FILE_BYTES, View, first_scene, from_json, load, to_json,
 };
@@ -25,9 +27,13 @@ fn a_file_cut_off_anywhere_is_refused_with_line_and_column() {
             Ok(_) => assert!(end >= whole && same(&original[..end], &original), "cut at {end} of {whole}"),
             Err(FileError::Syntax { line, column, message }) => {
                 let expected = original[..end].lines().count().max(1);
-                assert!(line <= expected + 1 && line + 1 >= expected, "cut at {end}: line {line}, {expected}");
+                assert!(
+                    line <= expected + 1 && line + 1 >= expected,
+                    "cut at {end}: line {line}, {expected}"
+                );
                 let in_a_number = original[..end].ends_with(['-', '.', 'e']);
-                let known = message.contains("ends too early") || (in_a_number && message == "invalid number");
+                let known =
+                    message.contains("ends too early") || (in_a_number && message == "invalid number");
                 assert!(known, "cut at {end}, column {column}: {message}");
             }
             // A number cut in two is a number; what is missing is then found to be missing.
@@ -114,8 +120,8 @@ fn impossible_values_are_named_with_their_place() {
         (format!("\"name\": \"L\", \"degree\": 1, {line}, \"weights\": [1, \"x\"]"), "objects[0].weights[1] (line 1"),
         (format!("\"name\": \"L\", \"degree\": 1, {line}, \"period\": 0.5"), "objects[0].period: the last knot 3"),
         (format!("\"name\": \"L\", \"degree\": 1, {line}, \"colour\": 3"), "objects[0].colour (line 1"),
-        (format!("\"name\": \"L\", \"degree\": 1, {line}, \"display\": {{\"width\": 0}}"), "objects[0].display: "),
-        (format!("\"name\": \"L\", \"degree\": 1, {line}, \"display\": {{\"comb_teeth\": 4000000000}}"), "objects[0].display: "),
+        (format!("\"name\": \"L\", \"degree\": 1, {line}, \"display\": {{\"width\": 0}}"), "objects[0].display: width is 0; it must be from 0.01 to 100"),
+        (format!("\"name\": \"L\", \"degree\": 1, {line}, \"display\": {{\"comb_teeth\": 4000000000}}"), "objects[0].display: comb_teeth is 4000000000; it must be from 1 to 1000"),
         (format!("\"name\": \"L\", \"degree\": 1, {line}, \"display\": {{\"glow\": true}}"), "objects[0].display.glow"),
         ("\"name\": \"L\", \"degree\": 1, \"knots\": [0, 1, 0.5, 3], \"points\": [[0, 0], [1, 1]]".to_owned(), "objects[0].knots[2]: knot 2 is 0.5, smaller than the knot 1"),
         ("\"name\": \"L\", \"degree\": 1, \"knots\": [0, 1, 2, 3], \"points\": [[0, 0], [1, 1e999]]".to_owned(), "line 1"),
@@ -129,7 +135,10 @@ fn impossible_values_are_named_with_their_place() {
             Ok(_) => assert_eq!(expected, "", "accepted {fields}"),
             Err(error) => {
                 let message = error.to_string();
-                assert!(!expected.is_empty() && message.starts_with(expected), "{fields}\n{message}\n{expected}");
+                assert!(
+                    !expected.is_empty() && message.starts_with(expected),
+                    "{fields}\n{message}\n{expected}"
+                );
             }
         }
     }
@@ -145,7 +154,9 @@ fn numbers_of_objects_are_unique_and_below_the_next_one() {
     };
     let file = |ids: [&str; 2], next: &str| {
         let (a, b) = (object(ids[0]), object(ids[1]));
-        format!("{{\"format\": \"spline-lab\", \"version\": 1, \"next_id\": {next}, \"objects\": [{a}, {b}]}}")
+        format!(
+            "{{\"format\": \"spline-lab\", \"version\": 1, \"next_id\": {next}, \"objects\": [{a}, {b}]}}"
+        )
     };
     assert!(from_json(&file(["1", "2"], "3")).is_ok(), "a good file");
     for (ids, next, expected) in [
@@ -162,7 +173,9 @@ fn numbers_of_objects_are_unique_and_below_the_next_one() {
 
 #[test]
 fn deep_nesting_and_huge_lists_end_in_an_error() {
-    for text in ["[".repeat(1_000_000), "{\"a\":".repeat(1_000_000), format!("{{\"x\": {}", "[".repeat(1_000_000))] {
+    for text in
+        ["[".repeat(1_000_000), "{\"a\":".repeat(1_000_000), format!("{{\"x\": {}", "[".repeat(1_000_000))]
+    {
         let error = from_json(&text).unwrap_err();
         assert!(matches!(error, FileError::Syntax { .. } | FileError::Structure { .. }), "{}", error.name());
     }
@@ -172,11 +185,16 @@ fn deep_nesting_and_huge_lists_end_in_an_error() {
         "]".repeat(100_000)
     );
     // Nothing of it is kept, however deep.
-    assert!(from_json(&view).is_ok_and(|saved| saved.document.is_empty()) || from_json(&view).is_err(), "no panic");
+    assert!(
+        from_json(&view).is_ok_and(|saved| saved.document.is_empty()) || from_json(&view).is_err(),
+        "no panic"
+    );
     let points = "[0,0],".repeat(100_001);
     let knots = (0..100_003).map(|k| k.to_string()).collect::<Vec<_>>().join(",");
-    let fields =
-        format!("\"name\": \"L\", \"degree\": 1, \"knots\": [{knots}], \"points\": [{}]", &points[..points.len() - 1]);
+    let fields = format!(
+        "\"name\": \"L\", \"degree\": 1, \"knots\": [{knots}], \"points\": [{}]",
+        &points[..points.len() - 1]
+    );
     let error = from_json(&file(&fields)).unwrap_err().to_string();
     assert_eq!(error, "objects[0].points: 100001 points are above the limit 100000", "points");
     let folder = tempfile::tempdir().unwrap();

@@ -6,26 +6,30 @@
 //! [`save`] and [`load`] keep files, [`Autosave`] what has not been saved yet.
 
 mod apply;
-mod display;
 mod contents;
+mod display;
 mod edit;
+mod edit_error;
 mod file_error;
 mod history;
 mod json;
 mod json_writer;
 mod object;
+mod outcome;
 mod recovery;
 mod samples;
 mod storage;
 mod view;
 
-pub use display::{CurveDisplay, PointLabels};
 pub use contents::Document;
-pub use edit::{Edit, EditError, MAX_EDIT_DEGREE, Outcome, ShapeChange};
+pub use display::{CurveDisplay, PointLabels};
+pub use edit::{Edit, MAX_EDIT_DEGREE};
+pub use edit_error::EditError;
 pub use file_error::FileError;
 pub use history::{DEFAULT_BUDGET, History};
 pub use json::{EXTENSION, FORMAT_VERSION, from_json, to_json};
 pub use object::{Content, Object, ObjectId};
+pub use outcome::{Outcome, ShapeChange};
 pub use recovery::{Autosave, Damaged, Recovered};
 pub use samples::first_scene;
 pub use storage::{MAX_FILE_BYTES, load, save};

@@ -9,7 +9,8 @@ use crate::core::bspline::{SplineError, SplineSpace};
 use crate::core::spline_curve::Nurbs;
 use crate::document::contents::Document;
 use crate::document::display::{CurveDisplay, PointLabels};
-use crate::document::edit::{Edit, EditError};
+use crate::document::edit::Edit;
+use crate::document::edit_error::EditError;
 use crate::document::object::ObjectId;
 use crate::document::view::{Camera, View};
 
@@ -50,8 +51,16 @@ fn add(
 
 fn wave() -> Result<Nurbs<DVec2>, SplineError> {
     let knots = vec![-1.0, 0.0, 0.0, 0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 5.0, 5.0, 6.0];
-    let points =
-        [(-5.4, -1.4), (-4.4, 1.6), (-2.6, 3.0), (-1.6, -0.8), (0.4, -3.0), (1.8, 0.6), (3.6, 3.0), (5.4, 0.4)];
+    let points = [
+        (-5.4, -1.4),
+        (-4.4, 1.6),
+        (-2.6, 3.0),
+        (-1.6, -0.8),
+        (0.4, -3.0),
+        (1.8, 0.6),
+        (3.6, 3.0),
+        (5.4, 0.4),
+    ];
     Nurbs::polynomial(SplineSpace::new(3, knots)?, points.map(DVec2::from).to_vec())
 }
 

@@ -9,8 +9,9 @@ use crate::core::spline_curve::Nurbs;
 use crate::document::apply::knots::changed;
 use crate::document::apply::parametrization::{appended_knots, uniform_open, with_knots};
 use crate::document::contents::Document;
-use crate::document::edit::{EditError, Outcome, ShapeChange};
+use crate::document::edit_error::EditError;
 use crate::document::object::ObjectId;
+use crate::document::outcome::{Outcome, ShapeChange};
 
 pub(super) fn move_points(
     document: &mut Document,
@@ -214,7 +215,11 @@ fn space_without(space: &SplineSpace, deleted: &BTreeSet<usize>) -> Result<Splin
             space.period().map_or(direct, |period| direct.min((knot + period - greville[point]).abs()))
         };
         // The first knot of a period stays, so that the curve keeps its seam.
-        let interior = if space.is_periodic() { 1..knots.len() } else { space.degree() + 1..knots.len() - space.degree() - 1 };
+        let interior = if space.is_periodic() {
+            1..knots.len()
+        } else {
+            space.degree() + 1..knots.len() - space.degree() - 1
+        };
         let nearest = interior.min_by(|&a, &b| distance(knots[a]).total_cmp(&distance(knots[b])));
         if let Some(index) = nearest {
             knots.remove(index);
