@@ -1,9 +1,9 @@
 //! The window without a screen: what hands do, and that undo takes it back exactly.
 #![cfg(feature = "app")]
 
-use eframe::egui::{Key, Modifiers, Pos2, Vec2, vec2};
+use eframe::egui::{Event, Key, Modifiers, Pos2, Vec2, vec2};
 use egui_kittest::Harness;
-use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use egui_kittest::kittest::Queryable as _;
 use glam::DVec2;
 use spline_lab::app::LabApp;
 use spline_lab::document::Document;
@@ -65,7 +65,12 @@ fn a_dragged_point_moves_alone_and_undo_brings_it_back_exactly() {
     let after = points(&harness);
     let moved: Vec<usize> = (0..before.len()).filter(|&k| before[k] != after[k]).collect();
     assert_eq!(moved, [1], "only point 1 may move");
-    assert!(after[1].x > before[1].x && after[1].y > before[1].y, "right and up: {} to {}", before[1], after[1]);
+    assert!(
+        after[1].x > before[1].x && after[1].y > before[1].y,
+        "right and up: {} to {}",
+        before[1],
+        after[1]
+    );
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     harness.step();
     harness.step();
@@ -94,10 +99,9 @@ fn shift_keeps_a_drag_on_one_axis() {
     harness.step();
     harness.drag_at(from);
     harness.step();
-    harness.input_mut().modifiers = Modifiers::SHIFT;
+    harness.event(Event::ModifiersChanged(Modifiers::SHIFT));
     harness.hover_at(from + vec2(50.0, 12.0));
     harness.step();
-    harness.input_mut().modifiers = Modifiers::SHIFT;
     harness.drop_at(from + vec2(50.0, 12.0));
     harness.step();
     let after = points(&harness);
@@ -142,7 +146,9 @@ fn the_insert_knot_key_keeps_the_shape_and_adds_one_point() {
 
 #[test]
 fn the_window_survives_every_size() {
-    for size in [vec2(1024.0, 700.0), vec2(1920.0, 1080.0), vec2(640.0, 420.0), vec2(60.0, 40.0), vec2(1.0, 1.0)] {
+    for size in
+        [vec2(1024.0, 700.0), vec2(1920.0, 1080.0), vec2(640.0, 420.0), vec2(60.0, 40.0), vec2(1.0, 1.0)]
+    {
         let mut harness = harness(size);
         for _ in 0..3 {
             harness.step();

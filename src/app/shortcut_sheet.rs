@@ -84,7 +84,8 @@ fn keys(menu: Menu, ui: &mut Ui) {
 }
 
 fn hands(ui: &mut Ui) {
-    let lines: Vec<(String, String)> = HANDS.iter().map(|&(hand, does)| (hand.to_owned(), does.to_owned())).collect();
+    let lines: Vec<(String, String)> =
+        HANDS.iter().map(|&(hand, does)| (hand.to_owned(), does.to_owned())).collect();
     section("Mouse and arrows", &lines, ui);
 }
 

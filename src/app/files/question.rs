@@ -3,7 +3,9 @@
 use std::path::PathBuf;
 use std::time::SystemTime;
 
-use eframe::egui::{self, Align, Align2, Button, Id, Key, Layout, Modal, Modifiers, RichText, ScrollArea, Ui};
+use eframe::egui::{
+    self, Align, Align2, Button, Id, Key, Layout, Modal, Modifiers, RichText, ScrollArea, Ui,
+};
 
 use crate::app::files::{Then, name_of};
 use crate::app::lab::Lab;
@@ -95,10 +97,13 @@ fn offer(recovered: &[Recovered], ui: &mut Ui) -> Option<Reply> {
                 ui.horizontal(|ui| {
                     let name = document.original.as_deref().map_or_else(|| "Untitled".to_owned(), name_of);
                     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                        for (word, answer) in [("Discard", Reply::Discard(index)), ("Open", Reply::BringBack(index))] {
+                        for (word, answer) in
+                            [("Discard", Reply::Discard(index)), ("Open", Reply::BringBack(index))]
+                        {
                             let response = ui.add(Button::new(word));
                             let label = format!("{word} {name}, {}", index + 1);
-                            response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &label));
+                            response
+                                .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &label));
                             if response.clicked() {
                                 reply = Some(answer);
                             }
@@ -109,7 +114,11 @@ fn offer(recovered: &[Recovered], ui: &mut Ui) -> Option<Reply> {
                                 text.on_hover_text(path.display().to_string());
                             }
                             let objects = document.saved.document.len();
-                            let objects = if objects == 1 { "1 object".to_owned() } else { format!("{objects} objects") };
+                            let objects = if objects == 1 {
+                                "1 object".to_owned()
+                            } else {
+                                format!("{objects} objects")
+                            };
                             ui.label(RichText::new(format!("{objects}, {}", age(document.written))).weak());
                         });
                     });
