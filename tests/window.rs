@@ -145,6 +145,23 @@ fn the_insert_knot_key_keeps_the_shape_and_adds_one_point() {
 }
 
 #[test]
+fn a_double_click_on_the_curve_inserts_a_knot_there() {
+    let mut harness = harness(vec2(1280.0, 800.0));
+    let before = points(&harness);
+    let name = selected_name(&harness);
+    let marker = harness.get_by_label(&format!("Parameter of {name}")).rect().center();
+    harness.hover_at(marker);
+    harness.step();
+    for _ in 0..2 {
+        harness.drag_at(marker);
+        harness.drop_at(marker);
+        harness.step();
+    }
+    harness.step();
+    assert_eq!(points(&harness).len(), before.len() + 1, "one point more");
+}
+
+#[test]
 fn the_window_survives_every_size() {
     for size in
         [vec2(1024.0, 700.0), vec2(1920.0, 1080.0), vec2(640.0, 420.0), vec2(60.0, 40.0), vec2(1.0, 1.0)]

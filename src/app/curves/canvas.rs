@@ -176,8 +176,16 @@ impl Canvas {
     ) {
         let keys = ui.input(|input| input.modifiers);
         let Some(pointer) = ui.input(|input| input.pointer.latest_pos()) else { return };
-        let (pressed, down, released) = ui.input(|input| {
-            (input.pointer.primary_pressed(), input.pointer.primary_down(), input.pointer.primary_released())
+        let (down, released) =
+            ui.input(|input| (input.pointer.primary_down(), input.pointer.primary_released()));
+        // In a slow frame the pointer has moved on since the press; what was pressed is what lay there.
+        let pressed_at = ui.input(|input| {
+            input.events.iter().find_map(|event| match *event {
+                egui::Event::PointerButton { pos, button: PointerButton::Primary, pressed: true, .. } => {
+                    Some(pos)
+                }
+                _ => None,
+            })
         });
         if lab.tool == Tool::Draw {
             if response.double_clicked() || response.secondary_clicked() {
@@ -188,8 +196,14 @@ impl Canvas {
             self.drawing.keys(lab, ui);
             return;
         }
+        // The first click of the two has brought the parameter to the place, so that its marker lies there now.
+        let place = match target {
+            Target::Curve(object, at) | Target::Knot(object, at) => Some((object, at)),
+            Target::Parameter(object) => lab.parameter(object).map(|at| (object, at)),
+            _ => None,
+        };
         if response.double_clicked()
-            && let Target::Curve(object, at) | Target::Knot(object, at) = target
+            && let Some((object, at)) = place
         {
             self.gesture = None;
             lab.edit(Edit::InsertKnot { object, at });
@@ -199,8 +213,14 @@ impl Canvas {
             self.gesture = None;
             return;
         }
-        if pressed && response.contains_pointer() && !self.panning && !ui.ctx().any_popup_open() {
-            self.gesture = Some(Gesture::press(target, pointer, lab, viewport, rect, keys));
+        if let Some(at) = pressed_at
+            && rect.contains(at)
+            && (response.contains_pointer() || response.is_pointer_button_down_on())
+            && !self.panning
+            && !ui.ctx().any_popup_open()
+        {
+            let target = target_at(lab, viewport, rect, at);
+            self.gesture = Some(Gesture::press(target, at, lab, viewport, rect, keys));
         }
         if let Some(mut gesture) = self.gesture.take() {
             if down {
