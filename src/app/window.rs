@@ -136,20 +136,27 @@ impl LabApp {
 
     fn side_panels(&mut self, ui: &mut Ui) {
         let (lab, files) = (&mut self.lab, &mut self.files);
+        // Larger type needs wider panels.
+        let scale = lab.theme.text_scale as f32;
         let open = |lab: &Lab, name: &str| lab.view.panels.get(name).copied().unwrap_or(true);
         if open(lab, LEFT_PANEL) {
             let size = files.panel_size(LEFT_PANEL, 184.0);
-            let panel = Panel::left(LEFT_PANEL).default_size(size).size_range(140.0..=360.0).show(ui, |ui| {
-                object_list::show(lab, ui);
-                ui.add_space(10.0);
-                lesson_panel::show_list(lab, ui);
-            });
+            let panel = Panel::left(LEFT_PANEL)
+                .default_size(size)
+                .size_range(170.0 * scale..=360.0 * scale)
+                .show(ui, |ui| {
+                    object_list::show(lab, ui);
+                    ui.add_space(10.0);
+                    lesson_panel::show_list(lab, ui);
+                });
             files.note_panel_size(LEFT_PANEL, panel.response.rect.width());
         }
         if open(lab, RIGHT_PANEL) {
             let size = files.panel_size(RIGHT_PANEL, 290.0);
-            let panel =
-                Panel::right(RIGHT_PANEL).default_size(size).size_range(230.0..=560.0).show(ui, |ui| {
+            let panel = Panel::right(RIGHT_PANEL)
+                .default_size(size)
+                .size_range(272.0 * scale..=560.0 * scale)
+                .show(ui, |ui| {
                     ui.add_space(4.0);
                     ui.horizontal(|ui| {
                         for (page, text) in [
@@ -207,14 +214,9 @@ impl LabApp {
             return;
         }
         match command {
-            Command::Undo => {
-                if lab.history.undo().is_some() {
-                    lab.shape_note = None;
-                    lab.tidy_selection();
-                }
-            }
-            Command::Redo => {
-                if lab.history.redo().is_some() {
+            Command::Undo | Command::Redo => {
+                let step = if command == Command::Undo { lab.history.undo() } else { lab.history.redo() };
+                if step.is_some() {
                     lab.shape_note = None;
                     lab.tidy_selection();
                 }

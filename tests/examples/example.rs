@@ -24,7 +24,7 @@ pub(crate) struct Example {
 #[derive(Clone, Debug)]
 pub(crate) enum Got {
     Number(f64),
-    List(Vec<Got>),
+    List(Vec<Self>),
     Word(String),
 }
 

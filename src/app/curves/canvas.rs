@@ -286,7 +286,7 @@ impl Canvas {
                 at,
                 Align2::CENTER_TOP,
                 hint,
-                13.0,
+                13.0 * lab.theme.text_scale as f32,
                 lab.theme.muted_text,
                 lab.theme.background,
             );

@@ -112,7 +112,15 @@ fn paint_bead(lab: &Lab, curve: &Nurbs<DVec2>, index: usize, bead: Pos2, point: 
     painter.circle(bead, 5.5, color32(lab.theme.background), Stroke::new(2.5, ink));
     let text = format!("w = {}", short_number(curve.weights()[index]));
     let theme = &lab.theme;
-    paint_note(painter, bead + vec2(12.0, 12.0), Align2::LEFT_TOP, &text, 12.0, theme.text, theme.background);
+    paint_note(
+        painter,
+        bead + vec2(12.0, 12.0),
+        Align2::LEFT_TOP,
+        &text,
+        12.0 * theme.text_scale as f32,
+        theme.text,
+        theme.background,
+    );
 }
 
 fn paint_parameter(lab: &Lab, parameter: f64, at: Pos2, painter: &Painter) {
