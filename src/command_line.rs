@@ -21,7 +21,12 @@ const POINTS_PER_MM: f64 = 72.0 / 25.4;
 const MARGIN: f64 = 24.0;
 
 #[derive(Debug, Parser)]
-#[command(name = "spline-lab", version, about = "Take hold of splines", args_conflicts_with_subcommands = true)]
+#[command(
+    name = "spline-lab",
+    version,
+    about = "Take hold of splines",
+    args_conflicts_with_subcommands = true
+)]
 struct Arguments {
     /// The document to open: a .spline file, or an SVG figure that was made from one
     file: Option<PathBuf>,
@@ -160,8 +165,10 @@ fn page(document: &Document, width: f64, height: Option<f64>) -> Result<Viewport
     let (low, high) = document.bounding_box().unwrap_or((DVec2::ZERO, DVec2::ONE));
     let extent = high - low;
     let width = width * POINTS_PER_MM;
-    let natural = if extent.x > 0.0 { (width - 2.0 * MARGIN) * extent.y / extent.x + 2.0 * MARGIN } else { width };
-    let height = height.map_or_else(|| natural.clamp(0.25 * width, 1.5 * width), |height| height * POINTS_PER_MM);
+    let natural =
+        if extent.x > 0.0 { (width - 2.0 * MARGIN) * extent.y / extent.x + 2.0 * MARGIN } else { width };
+    let height =
+        height.map_or_else(|| natural.clamp(0.25 * width, 1.5 * width), |height| height * POINTS_PER_MM);
     Ok(Viewport::fitting(low, high, DVec2::new(width, height), MARGIN))
 }
 
@@ -172,7 +179,10 @@ fn convert(input: &Path, output: &Path) -> Result<(), String> {
     }
     match FigureFormat::of(output) {
         Ok(FigureFormat::Svg) => write_figure(input, output, 160.0, None, &Theme::light(), 1.0),
-        _ => Err(format!("{}: convert writes .spline and .svg; for .pdf and .png use spline-lab figure", output.display())),
+        _ => Err(format!(
+            "{}: convert writes .spline and .svg; for .pdf and .png use spline-lab figure",
+            output.display()
+        )),
     }
 }
 
@@ -221,7 +231,10 @@ mod tests {
         let (low, high) = document.bounding_box().unwrap();
         for corner in [low, high] {
             let place = viewport.page_from_world(corner);
-            assert!(place.cmpge(DVec2::ZERO).all() && place.cmple(viewport.size).all(), "{corner} is at {place}");
+            assert!(
+                place.cmpge(DVec2::ZERO).all() && place.cmple(viewport.size).all(),
+                "{corner} is at {place}"
+            );
         }
         for width in [0.0, -3.0, f64::NAN, 1e9] {
             assert!(page(&document, width, None).is_err(), "width {width}");

@@ -58,10 +58,13 @@ fn a_document_goes_through_svg_and_back_unchanged() {
 #[test]
 fn figures_have_the_format_of_their_ending() {
     let folder = folder_with_scene();
-    for (name, start) in [("figure.svg", &b"<?xml"[..]), ("figure.pdf", b"%PDF-"), ("figure.png", b"\x89PNG")] {
+    for (name, start) in [("figure.svg", &b"<?xml"[..]), ("figure.pdf", b"%PDF-"), ("figure.png", b"\x89PNG")]
+    {
         for theme in ["light", "dark", "presentation"] {
-            let output =
-                run(folder.path(), &["figure", "scene.spline", "-o", name, "--width", "80", "--theme", theme]);
+            let output = run(
+                folder.path(),
+                &["figure", "scene.spline", "-o", name, "--width", "80", "--theme", theme],
+            );
             assert!(output.status.success(), "{name} {theme}: {}", text(&output.stderr));
             let bytes = fs::read(folder.path().join(name)).expect("the figure");
             assert!(bytes.starts_with(start), "{name} starts with {:?}", &bytes[..8.min(bytes.len())]);

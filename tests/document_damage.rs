@@ -25,9 +25,13 @@ fn a_file_cut_off_anywhere_is_refused_with_line_and_column() {
             Ok(_) => assert!(end >= whole && same(&original[..end], &original), "cut at {end} of {whole}"),
             Err(FileError::Syntax { line, column, message }) => {
                 let expected = original[..end].lines().count().max(1);
-                assert!(line <= expected + 1 && line + 1 >= expected, "cut at {end}: line {line}, {expected}");
+                assert!(
+                    line <= expected + 1 && line + 1 >= expected,
+                    "cut at {end}: line {line}, {expected}"
+                );
                 let in_a_number = original[..end].ends_with(['-', '.', 'e']);
-                let known = message.contains("ends too early") || (in_a_number && message == "invalid number");
+                let known =
+                    message.contains("ends too early") || (in_a_number && message == "invalid number");
                 assert!(known, "cut at {end}, column {column}: {message}");
             }
             // A number cut in two is a number; what is missing is then found to be missing.
@@ -129,7 +133,10 @@ fn impossible_values_are_named_with_their_place() {
             Ok(_) => assert_eq!(expected, "", "accepted {fields}"),
             Err(error) => {
                 let message = error.to_string();
-                assert!(!expected.is_empty() && message.starts_with(expected), "{fields}\n{message}\n{expected}");
+                assert!(
+                    !expected.is_empty() && message.starts_with(expected),
+                    "{fields}\n{message}\n{expected}"
+                );
             }
         }
     }
@@ -145,7 +152,9 @@ fn numbers_of_objects_are_unique_and_below_the_next_one() {
     };
     let file = |ids: [&str; 2], next: &str| {
         let (a, b) = (object(ids[0]), object(ids[1]));
-        format!("{{\"format\": \"spline-lab\", \"version\": 1, \"next_id\": {next}, \"objects\": [{a}, {b}]}}")
+        format!(
+            "{{\"format\": \"spline-lab\", \"version\": 1, \"next_id\": {next}, \"objects\": [{a}, {b}]}}"
+        )
     };
     assert!(from_json(&file(["1", "2"], "3")).is_ok(), "a good file");
     for (ids, next, expected) in [
@@ -162,7 +171,9 @@ fn numbers_of_objects_are_unique_and_below_the_next_one() {
 
 #[test]
 fn deep_nesting_and_huge_lists_end_in_an_error() {
-    for text in ["[".repeat(1_000_000), "{\"a\":".repeat(1_000_000), format!("{{\"x\": {}", "[".repeat(1_000_000))] {
+    for text in
+        ["[".repeat(1_000_000), "{\"a\":".repeat(1_000_000), format!("{{\"x\": {}", "[".repeat(1_000_000))]
+    {
         let error = from_json(&text).unwrap_err();
         assert!(matches!(error, FileError::Syntax { .. } | FileError::Structure { .. }), "{}", error.name());
     }
@@ -172,11 +183,16 @@ fn deep_nesting_and_huge_lists_end_in_an_error() {
         "]".repeat(100_000)
     );
     // Nothing of it is kept, however deep.
-    assert!(from_json(&view).is_ok_and(|saved| saved.document.is_empty()) || from_json(&view).is_err(), "no panic");
+    assert!(
+        from_json(&view).is_ok_and(|saved| saved.document.is_empty()) || from_json(&view).is_err(),
+        "no panic"
+    );
     let points = "[0,0],".repeat(100_001);
     let knots = (0..100_003).map(|k| k.to_string()).collect::<Vec<_>>().join(",");
-    let fields =
-        format!("\"name\": \"L\", \"degree\": 1, \"knots\": [{knots}], \"points\": [{}]", &points[..points.len() - 1]);
+    let fields = format!(
+        "\"name\": \"L\", \"degree\": 1, \"knots\": [{knots}], \"points\": [{}]",
+        &points[..points.len() - 1]
+    );
     let error = from_json(&file(&fields)).unwrap_err().to_string();
     assert_eq!(error, "objects[0].points: 100001 points are above the limit 100000", "points");
     let folder = tempfile::tempdir().unwrap();

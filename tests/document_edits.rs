@@ -153,7 +153,12 @@ fn both_conventions_of_multiple_end_knots_give_the_same_curve() {
     let mut document = with(old.clone());
     let fourfold = vec![0.0, 0.0, 0.0, 0.0, 1.0, 2.5, 3.0, 4.0, 4.0, 4.0, 4.0];
     document.apply(&Edit::SetKnots { object: CURVE, knots: fourfold }).unwrap();
-    assert_eq!(document.curve(CURVE), Some(&old), "knots {:?}", document.curve(CURVE).unwrap().space().knots());
+    assert_eq!(
+        document.curve(CURVE),
+        Some(&old),
+        "knots {:?}",
+        document.curve(CURVE).unwrap().space().knots()
+    );
 }
 
 #[test]
@@ -163,7 +168,11 @@ fn a_knot_stops_at_its_neighbours() {
     let error = document.apply(&Edit::MoveKnot { object: CURVE, knot: 5, to: 3.5 }).unwrap_err();
     assert_eq!(error, EditError::KnotBlocked { knot: 5, wanted: 3.5, low: 1.0, high: 3.0 }, "one copy");
     let error = document.apply(&Edit::MoveDistinctKnot { object: CURVE, at: 4.0, to: 2.0 }).unwrap_err();
-    assert_eq!(error, EditError::KnotBlocked { knot: 7, wanted: 2.0, low: 3.0, high: f64::INFINITY }, "the end");
+    assert_eq!(
+        error,
+        EditError::KnotBlocked { knot: 7, wanted: 2.0, low: 3.0, high: f64::INFINITY },
+        "the end"
+    );
     assert_eq!(document, before, "unchanged");
     document.apply(&Edit::MoveDistinctKnot { object: CURVE, at: 4.0, to: 6.0 }).unwrap();
     let knots = document.curve(CURVE).unwrap().space().knots();
@@ -244,21 +253,45 @@ fn impossible_edits_name_what_is_wrong() {
     let nan = f64::NAN;
     for (edit, expected) in [
         (Edit::SetPoint { object: ObjectId(7), point: 0, position: DVec2::ZERO }, "there is no object 7"),
-        (Edit::SetPoint { object: CURVE, point: 7, position: DVec2::ZERO }, "object 1 has no point 7; its 7 points are numbered from 0"),
-        (Edit::SetPoint { object: CURVE, point: 0, position: DVec2::new(0.0, nan) }, "the position is NaN, not a finite number"),
-        (Edit::MovePoints { object: CURVE, points: vec![], delta: DVec2::INFINITY }, "the displacement is inf, not a finite number"),
-        (Edit::TransformPoints { object: CURVE, points: vec![0], matrix: DMat2::NAN, about: DVec2::ZERO }, "the matrix is NaN, not a finite number"),
+        (
+            Edit::SetPoint { object: CURVE, point: 7, position: DVec2::ZERO },
+            "object 1 has no point 7; its 7 points are numbered from 0",
+        ),
+        (
+            Edit::SetPoint { object: CURVE, point: 0, position: DVec2::new(0.0, nan) },
+            "the position is NaN, not a finite number",
+        ),
+        (
+            Edit::MovePoints { object: CURVE, points: vec![], delta: DVec2::INFINITY },
+            "the displacement is inf, not a finite number",
+        ),
+        (
+            Edit::TransformPoints { object: CURVE, points: vec![0], matrix: DMat2::NAN, about: DVec2::ZERO },
+            "the matrix is NaN, not a finite number",
+        ),
         (Edit::SetWeight { object: CURVE, point: 2, weight: 0.0 }, "weight 2 is 0; weights must be positive"),
         (Edit::InsertKnot { object: CURVE, at: 9.0 }, "9 lies outside [0, 4]"),
         (Edit::RemoveKnot { object: CURVE, at: 0.7 }, "0.7 is not a knot of object 1"),
-        (Edit::MoveKnot { object: CURVE, knot: 11, to: 0.0 }, "object 1 has no knot 11; its 11 knots are numbered from 0"),
+        (
+            Edit::MoveKnot { object: CURVE, knot: 11, to: 0.0 },
+            "object 1 has no knot 11; its 11 knots are numbered from 0",
+        ),
         (Edit::MoveKnot { object: CURVE, knot: 5, to: nan }, "the knot is NaN, not a finite number"),
         (Edit::MoveDistinctKnot { object: CURVE, at: nan, to: 0.0 }, "NaN is not a knot of object 1"),
         (Edit::SetDegree { object: CURVE, degree: 13 }, "degree 13 lies outside 1 to 12"),
         (Edit::SetDegree { object: CURVE, degree: 7 }, "7 control points given, 8 needed"),
-        (Edit::RenameObject { object: CURVE, name: "a\nb".to_owned() }, "the name \"a\\nb\" contains a line break or another control character"),
-        (Edit::ReorderObject { object: CURVE, to: 1 }, "position 1 does not exist; the document has 1 objects"),
-        (Edit::InsertPoint { object: CURVE, before: 8, position: DVec2::ZERO }, "object 1 has no point 8; its 7 points are numbered from 0"),
+        (
+            Edit::RenameObject { object: CURVE, name: "a\nb".to_owned() },
+            "the name \"a\\nb\" contains a line break or another control character",
+        ),
+        (
+            Edit::ReorderObject { object: CURVE, to: 1 },
+            "position 1 does not exist; the document has 1 objects",
+        ),
+        (
+            Edit::InsertPoint { object: CURVE, before: 8, position: DVec2::ZERO },
+            "object 1 has no point 8; its 7 points are numbered from 0",
+        ),
     ] {
         let before = document.clone();
         let error = document.apply(&edit).unwrap_err();
@@ -284,7 +317,10 @@ fn the_first_scene_is_whole_and_within_its_frame() {
     let (document, view) = first_scene();
     assert_eq!(document.len(), 3, "three curves");
     let (low, high) = document.bounding_box().unwrap();
-    assert!(low.cmpge(DVec2::new(-6.0, -4.0)).all() && high.cmple(DVec2::new(6.0, 4.0)).all(), "{low} {high}");
+    assert!(
+        low.cmpge(DVec2::new(-6.0, -4.0)).all() && high.cmple(DVec2::new(6.0, 4.0)).all(),
+        "{low} {high}"
+    );
     let (&object, &t) = view.parameters.iter().next().unwrap();
     assert!(document.curve(object).unwrap().evaluate(t).is_ok(), "t = {t} can be shown");
     let circle = document.curve(document.objects()[0].id).unwrap();

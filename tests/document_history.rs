@@ -90,9 +90,7 @@ impl Random {
             8 => Edit::SetPoint { object, point: self.below(count + 1), position: self.point() },
             9 => Edit::SetPoints { object, positions: (0..count).map(|_| self.point()).collect() },
             10 => Edit::SetWeight { object, point: self.below(count), weight: self.number() * 3.0 - 0.3 },
-            11 => {
-                Edit::SetWeights { object, weights: (0..count).map(|_| self.number() + 0.1).collect() }
-            }
+            11 => Edit::SetWeights { object, weights: (0..count).map(|_| self.number() + 0.1).collect() },
             12 => Edit::InsertKnot { object, at },
             13 => Edit::RefineUniformly { object },
             14 => Edit::RemoveKnot { object, at: old },
@@ -163,7 +161,10 @@ fn ten_thousand_edits_and_undos_return_to_the_start_exactly() {
                 if interaction {
                     history.cancel();
                 }
-                assert!(text(history.document()) == text(&before), "step {step}: {edit:?} failed with {error}");
+                assert!(
+                    text(history.document()) == text(&before),
+                    "step {step}: {edit:?} failed with {error}"
+                );
             }
         }
         history.commit();

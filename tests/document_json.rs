@@ -22,29 +22,32 @@ fn weight() -> impl Strategy<Value = f64> {
 }
 
 fn curve() -> impl Strategy<Value = Nurbs<DVec2>> {
-    (1..6_usize, 1..9_usize, any::<bool>(), any::<bool>()).prop_flat_map(|(degree, more, closed, rational)| {
-        let count = degree + more;
-        let steps = prop::collection::vec(1e-3..5.0_f64, count + degree + 1);
-        let points = prop::collection::vec((coordinate(), coordinate()), count);
-        let weights = prop::collection::vec(if rational { weight().boxed() } else { Just(1.0).boxed() }, count);
-        (steps, points, weights, -1e3..1e3_f64).prop_map(move |(steps, points, weights, start)| {
-            let knots: Vec<f64> = steps
-                .iter()
-                .scan(start, |knot, step| {
-                    *knot += step;
-                    Some(*knot)
-                })
-                .collect();
-            let space = if closed {
-                let length = knots[count - 1] - knots[0] + 0.7;
-                SplineSpace::periodic(degree, length, knots[..count].to_vec())
-            } else {
-                SplineSpace::new(degree, knots)
-            };
-            let points = points.into_iter().map(DVec2::from).collect();
-            Nurbs::new(space.unwrap(), points, weights).unwrap()
-        })
-    })
+    (1..6_usize, 1..9_usize, any::<bool>(), any::<bool>()).prop_flat_map(
+        |(degree, more, closed, rational)| {
+            let count = degree + more;
+            let steps = prop::collection::vec(1e-3..5.0_f64, count + degree + 1);
+            let points = prop::collection::vec((coordinate(), coordinate()), count);
+            let weights =
+                prop::collection::vec(if rational { weight().boxed() } else { Just(1.0).boxed() }, count);
+            (steps, points, weights, -1e3..1e3_f64).prop_map(move |(steps, points, weights, start)| {
+                let knots: Vec<f64> = steps
+                    .iter()
+                    .scan(start, |knot, step| {
+                        *knot += step;
+                        Some(*knot)
+                    })
+                    .collect();
+                let space = if closed {
+                    let length = knots[count - 1] - knots[0] + 0.7;
+                    SplineSpace::periodic(degree, length, knots[..count].to_vec())
+                } else {
+                    SplineSpace::new(degree, knots)
+                };
+                let points = points.into_iter().map(DVec2::from).collect();
+                Nurbs::new(space.unwrap(), points, weights).unwrap()
+            })
+        },
+    )
 }
 
 fn display() -> impl Strategy<Value = CurveDisplay> {

@@ -71,7 +71,11 @@ fn a_damaged_recovery_file_is_kept_aside_and_reported() {
     assert!(Autosave::abandoned(folder.path()).is_empty(), "nothing to offer");
     let damaged = Autosave::damaged(folder.path());
     assert_eq!(damaged.len(), 1, "one report");
-    assert_eq!(std::fs::read(&damaged[0].path).unwrap(), &bytes[..bytes.len() / 2], "not deleted, not changed");
+    assert_eq!(
+        std::fs::read(&damaged[0].path).unwrap(),
+        &bytes[..bytes.len() / 2],
+        "not deleted, not changed"
+    );
     assert_eq!(damaged[0].error.name(), "Syntax", "{}", damaged[0].error);
     assert!(!slot.exists(), "the slot is free again");
 }

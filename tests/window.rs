@@ -65,7 +65,12 @@ fn a_dragged_point_moves_alone_and_undo_brings_it_back_exactly() {
     let after = points(&harness);
     let moved: Vec<usize> = (0..before.len()).filter(|&k| before[k] != after[k]).collect();
     assert_eq!(moved, [1], "only point 1 may move");
-    assert!(after[1].x > before[1].x && after[1].y > before[1].y, "right and up: {} to {}", before[1], after[1]);
+    assert!(
+        after[1].x > before[1].x && after[1].y > before[1].y,
+        "right and up: {} to {}",
+        before[1],
+        after[1]
+    );
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     harness.step();
     harness.step();
@@ -142,7 +147,9 @@ fn the_insert_knot_key_keeps_the_shape_and_adds_one_point() {
 
 #[test]
 fn the_window_survives_every_size() {
-    for size in [vec2(1024.0, 700.0), vec2(1920.0, 1080.0), vec2(640.0, 420.0), vec2(60.0, 40.0), vec2(1.0, 1.0)] {
+    for size in
+        [vec2(1024.0, 700.0), vec2(1920.0, 1080.0), vec2(640.0, 420.0), vec2(60.0, 40.0), vec2(1.0, 1.0)]
+    {
         let mut harness = harness(size);
         for _ in 0..3 {
             harness.step();

@@ -205,10 +205,16 @@ impl Command {
             Self::SelectAll => ("Select all points", "Select every control point of the object"),
             Self::Escape => ("Deselect", "Select nothing; leave the drawing tool"),
             Self::SelectTool => ("Select tool", "Select and drag points, knots and curves"),
-            Self::DrawTool => ("Draw a curve", "Click control points; Enter or double click ends, Backspace drops the last"),
+            Self::DrawTool => {
+                ("Draw a curve", "Click control points; Enter or double click ends, Backspace drops the last")
+            }
             Self::InsertKnot => ("Insert knot at t", "Insert a knot at the parameter; the shape is kept"),
-            Self::RemoveKnot => ("Remove knot", "Remove one copy of the selected knot; the deviation is measured"),
-            Self::RefineUniformly => ("Refine all intervals", "Insert a knot in the middle of every interval; the shape is kept"),
+            Self::RemoveKnot => {
+                ("Remove knot", "Remove one copy of the selected knot; the deviation is measured")
+            }
+            Self::RefineUniformly => {
+                ("Refine all intervals", "Insert a knot in the middle of every interval; the shape is kept")
+            }
             Self::ElevateDegree => ("Raise degree", "One degree up; the shape is kept"),
             Self::ReduceDegree => ("Lower degree", "One degree down; the deviation is measured"),
             Self::ToggleClosed => ("Close or open", "Close an open curve, open a closed one"),
@@ -294,10 +300,16 @@ impl Command {
     /// The menu that lists the command.
     pub fn menu(self) -> Menu {
         match self {
-            Self::New | Self::Open | Self::Save | Self::SaveAs | Self::ExportFigure | Self::FirstScene | Self::Quit => {
-                Menu::File
+            Self::New
+            | Self::Open
+            | Self::Save
+            | Self::SaveAs
+            | Self::ExportFigure
+            | Self::FirstScene
+            | Self::Quit => Menu::File,
+            Self::Undo | Self::Redo | Self::Delete | Self::Duplicate | Self::SelectAll | Self::Escape => {
+                Menu::Edit
             }
-            Self::Undo | Self::Redo | Self::Delete | Self::Duplicate | Self::SelectAll | Self::Escape => Menu::Edit,
             Self::SelectTool
             | Self::DrawTool
             | Self::InsertKnot
@@ -308,9 +320,11 @@ impl Command {
             | Self::ToggleClosed
             | Self::Reverse
             | Self::ResetWeights => Menu::Curve,
-            Self::StepperPlay | Self::StepForward | Self::StepBack | Self::NextLesson | Self::PreviousLesson => {
-                Menu::Lesson
-            }
+            Self::StepperPlay
+            | Self::StepForward
+            | Self::StepBack
+            | Self::NextLesson
+            | Self::PreviousLesson => Menu::Lesson,
             Self::Palette | Self::ShortcutSheet => Menu::Help,
             _ => Menu::View,
         }

@@ -23,7 +23,8 @@ impl Directories {
     /// The folders of the person who runs the lab: `spline-lab` under the XDG configuration and state folders, or what
     /// the environment variables `SPLINE_LAB_CONFIG_DIR` and `SPLINE_LAB_STATE_DIR` name.
     pub fn of_user() -> Self {
-        let named = |variable: &str| std::env::var_os(variable).filter(|value| !value.is_empty()).map(PathBuf::from);
+        let named =
+            |variable: &str| std::env::var_os(variable).filter(|value| !value.is_empty()).map(PathBuf::from);
         let strategy = etcetera::choose_base_strategy().ok();
         let config = strategy.as_ref().map(|base| base.config_dir().join("spline-lab"));
         // Systems without a folder for state have one for data.

@@ -45,7 +45,10 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
         ui.separator();
         ui.horizontal_wrapped(|ui| {
             restart = ui.button("Start again").on_hover_text("Show the lesson as it was at first").clicked();
-            leave = ui.button("Back to my document").on_hover_text("Close the lesson; work on it is kept").clicked();
+            leave = ui
+                .button("Back to my document")
+                .on_hover_text("Close the lesson; work on it is kept")
+                .clicked();
         });
     });
     lab.lesson = Some(state);

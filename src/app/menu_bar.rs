@@ -91,7 +91,9 @@ fn recent_files(files: &mut Files, ui: &mut Ui) {
     ui.add_enabled_ui(!recent.is_empty(), |ui| {
         ui.menu_button("Open recent", |ui| {
             for path in &recent {
-                let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.display().to_string());
+                let name = path
+                    .file_name()
+                    .map_or_else(|| path.display().to_string(), |name| name.display().to_string());
                 let folder = path.parent().map(|folder| folder.display().to_string()).unwrap_or_default();
                 let response = ui.button(&name).on_hover_text(path.display().to_string());
                 ui.label(RichText::new(folder).small().weak());
@@ -139,7 +141,9 @@ mod tests {
 
     #[test]
     fn a_step_is_named_as_in_a_sentence() {
-        for (step, name) in [("Move 3 points", "move 3 points"), ("B-spline added", "B-spline added"), ("", "")] {
+        for (step, name) in
+            [("Move 3 points", "move 3 points"), ("B-spline added", "B-spline added"), ("", "")]
+        {
             assert_eq!(in_a_sentence(step), name, "{step:?}");
         }
     }

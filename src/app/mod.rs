@@ -10,6 +10,7 @@ pub mod sheet;
 
 mod command_state;
 mod curves;
+mod dialog;
 mod file_dialog;
 mod files;
 mod formula_view;

@@ -1,13 +1,16 @@
 //! Paints a [`Picture`] with egui: cubics are flattened and clipped in f64 before anything becomes f32.
 
 use eframe::egui::{
-    Align2, Color32, FontFamily, FontId, Painter, Pos2, Rect, Shape, Stroke as PenStroke, Vec2, epaint, pos2, vec2,
+    Align2, Color32, FontFamily, FontId, Painter, Pos2, Rect, Shape, Stroke as PenStroke, Vec2, epaint, pos2,
+    vec2,
 };
 use glam::DVec2;
 
 use crate::app::formula_view::paint_formula;
 use crate::figure::formula;
-use crate::figure::picture::{Anchor, Color, Item, Label, Marker, MarkerShape, Path, Picture, Segment, Viewport};
+use crate::figure::picture::{
+    Anchor, Color, Item, Label, Marker, MarkerShape, Path, Picture, Segment, Viewport,
+};
 
 /// Largest distance in pt between a painted polyline and the cubic it stands for.
 const FLATNESS: f64 = 0.1;
@@ -200,7 +203,8 @@ fn paint_marker(marker: &Marker, viewport: &Viewport, rect: Rect, painter: &Pain
 }
 
 fn paint_label(label: &Label, viewport: &Viewport, rect: Rect, painter: &Painter) {
-    let place = screen_from_world(viewport, rect, label.at) + vec2(label.offset.x as f32, -label.offset.y as f32);
+    let place =
+        screen_from_world(viewport, rect, label.at) + vec2(label.offset.x as f32, -label.offset.y as f32);
     if !rect.expand(200.0).contains(place) {
         return;
     }
@@ -233,7 +237,15 @@ pub(crate) fn baseline(galley: &epaint::Galley) -> f32 {
 }
 
 /// A short text with the ground of the canvas behind it, so that lines do not run through it.
-pub(crate) fn paint_note(painter: &Painter, at: Pos2, anchor: Align2, text: &str, size: f32, ink: Color, ground: Color) {
+pub(crate) fn paint_note(
+    painter: &Painter,
+    at: Pos2,
+    anchor: Align2,
+    text: &str,
+    size: f32,
+    ink: Color,
+    ground: Color,
+) {
     let galley = painter.layout_no_wrap(text.to_owned(), FontId::proportional(size), color32(ink));
     let place = anchor.anchor_size(at, galley.size());
     painter.rect_filled(place.expand2(vec2(6.0, 3.0)), 4.0, color32(ground.with_opacity(0.85)));
@@ -246,7 +258,8 @@ mod tests {
 
     #[test]
     fn flattening_keeps_its_promise() {
-        let cubic = [(0.0, 0.0), (500.0, 900.0), (-200.0, 700.0), (600.0, 10.0)].map(|(x, y)| DVec2::new(x, y));
+        let cubic =
+            [(0.0, 0.0), (500.0, 900.0), (-200.0, 700.0), (600.0, 10.0)].map(|(x, y)| DVec2::new(x, y));
         let mut line = vec![cubic[0]];
         flatten_cubic(cubic, DVec2::splat(1000.0), MAX_DEPTH, &mut line);
         for step in 0..=2000 {
@@ -260,7 +273,8 @@ mod tests {
                 .windows(2)
                 .map(|edge| {
                     let run = edge[1] - edge[0];
-                    let share = ((point - edge[0]).dot(run) / run.length_squared().max(1e-300)).clamp(0.0, 1.0);
+                    let share =
+                        ((point - edge[0]).dot(run) / run.length_squared().max(1e-300)).clamp(0.0, 1.0);
                     point.distance(edge[0] + run * share)
                 })
                 .fold(f64::INFINITY, f64::min);
@@ -273,7 +287,13 @@ mod tests {
         let page = DVec2::new(100.0, 100.0);
         let lines = clip(&[DVec2::new(-1e12, 50.0), DVec2::new(1e12, 50.0)], page);
         assert_eq!(lines.len(), 1, "{lines:?}");
-        assert!((lines[0][0].x + MARGIN).abs() < 1e-3 && (lines[0][1].x - 100.0 - MARGIN).abs() < 1e-3, "{lines:?}");
-        assert!(clip(&[DVec2::new(-500.0, -500.0), DVec2::new(-500.0, 900.0)], page).is_empty(), "left of the page");
+        assert!(
+            (lines[0][0].x + MARGIN).abs() < 1e-3 && (lines[0][1].x - 100.0 - MARGIN).abs() < 1e-3,
+            "{lines:?}"
+        );
+        assert!(
+            clip(&[DVec2::new(-500.0, -500.0), DVec2::new(-500.0, 900.0)], page).is_empty(),
+            "left of the page"
+        );
     }
 }

@@ -1,6 +1,8 @@
 //! The command palette: a few letters find a command, Enter carries it out.
 
-use eframe::egui::{self, Align, Button, Id, Key, Layout, Modal, Modifiers, RichText, ScrollArea, TextEdit, Ui, vec2};
+use eframe::egui::{
+    self, Align, Button, Id, Key, Layout, Modal, Modifiers, RichText, ScrollArea, TextEdit, Ui, vec2,
+};
 
 use crate::app::command::Command;
 use crate::app::command_state::is_possible;
@@ -120,7 +122,8 @@ fn found(typed: &str, lab: &Lab) -> Vec<Command> {
 fn score(typed: &str, command: Command) -> Option<i32> {
     let (text, hint) = command.text();
     let name = subsequence_score(typed, text);
-    let menu = subsequence_score(typed, &format!("{} {text}", command.menu().title())).map(|score| score - 20);
+    let menu =
+        subsequence_score(typed, &format!("{} {text}", command.menu().title())).map(|score| score - 20);
     // In a sentence nearly every letter is found somewhere; only whole pieces count.
     let explained = (typed.len() > 2 && hint.to_lowercase().contains(&typed.to_lowercase())).then_some(-40);
     name.into_iter().chain(menu).chain(explained).max()
@@ -181,7 +184,8 @@ mod tests {
     fn letters_in_order_are_found_and_others_are_not() {
         assert!(subsequence_score("rfn", "Refine all intervals").is_some(), "rfn");
         assert!(subsequence_score("nfr", "Refine all").is_none(), "nfr is not in order");
-        let (run, leap) = (subsequence_score("comb", "Curvature comb"), subsequence_score("cuco", "Curvature comb"));
+        let (run, leap) =
+            (subsequence_score("comb", "Curvature comb"), subsequence_score("cuco", "Curvature comb"));
         assert!(run > subsequence_score("crtm", "Curvature comb"), "a whole word {run:?}");
         assert!(leap.is_some(), "beginnings of words");
         assert!(subsequence_score("", "anything").is_some(), "nothing typed fits everything");

@@ -5,8 +5,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use eframe::egui::text::CCursorRange;
-use eframe::egui::{self, Align, Button, Id, Key, Layout, Modal, Modifiers, RichText, ScrollArea, TextEdit, Ui};
+use eframe::egui::{self, Align, Button, Id, Key, Layout, Modifiers, RichText, ScrollArea, TextEdit, Ui};
 
+use crate::app::dialog;
 use crate::app::file_dialog::{Answer, Purpose, Request, with_extension};
 
 /// Entries that are listed at most; more are counted.
@@ -69,8 +70,7 @@ impl PathDialog {
         if ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Enter)) {
             action = Some(Action::Accept);
         }
-        Modal::new(Id::unique("path dialog")).show(ui.ctx(), |ui| {
-            ui.set_width(520.0_f32.min(ui.ctx().content_rect().width() - 60.0));
+        dialog::show("path dialog", 520.0, ui, |ui| {
             ui.heading(self.request.title);
             ui.add_space(4.0);
             self.folder_line(ui, &mut action);
@@ -80,7 +80,7 @@ impl PathDialog {
             if let Some(complaint) = &self.complaint {
                 ui.label(RichText::new(complaint).color(ui.visuals().error_fg_color));
             }
-            ui.add_space(6.0);
+            ui.add_space(10.0);
             self.buttons(ui, &mut action);
         });
         self.fresh = false;
@@ -105,7 +105,8 @@ impl PathDialog {
     fn folder_line(&self, ui: &mut Ui, action: &mut Option<Action>) {
         ui.horizontal(|ui| {
             let above = self.folder.parent();
-            let up = ui.add_enabled(above.is_some(), Button::new("Up")).on_hover_text("Show the folder above");
+            let up =
+                ui.add_enabled(above.is_some(), Button::new("Up")).on_hover_text("Show the folder above");
             if up.clicked()
                 && let Some(above) = above
             {
@@ -118,13 +119,15 @@ impl PathDialog {
     fn list(&self, ui: &mut Ui, action: &mut Option<Action>) {
         let height = 240.0_f32.min(ui.ctx().content_rect().height() - 260.0).max(60.0);
         egui::Frame::group(ui.style()).inner_margin(4).show(ui, |ui| {
-            let area = ScrollArea::vertical().max_height(height).min_scrolled_height(height).auto_shrink(false);
+            let area =
+                ScrollArea::vertical().max_height(height).min_scrolled_height(height).auto_shrink(false);
             area.show(ui, |ui| {
                 ui.set_min_height(height);
                 ui.with_layout(Layout::top_down_justified(Align::LEFT), |ui| {
                     ui.spacing_mut().item_spacing.y = 1.0;
                     for entry in &self.listing.entries {
-                        let text = if entry.is_folder { format!("{}/", entry.name) } else { entry.name.clone() };
+                        let text =
+                            if entry.is_folder { format!("{}/", entry.name) } else { entry.name.clone() };
                         let chosen = !entry.is_folder && self.typed == entry.name;
                         let line = ui.add(Button::selectable(chosen, text).truncate());
                         if line.clicked() {
@@ -144,7 +147,10 @@ impl PathDialog {
                         ui.label(RichText::new(format!("No {} here", self.request.kind)).weak());
                     }
                     if self.listing.left_out > 0 {
-                        ui.label(RichText::new(format!("and {} more; type the path", self.listing.left_out)).weak());
+                        ui.label(
+                            RichText::new(format!("and {} more; type the path", self.listing.left_out))
+                                .weak(),
+                        );
                     }
                 });
             });
@@ -159,7 +165,8 @@ impl PathDialog {
                 Purpose::Open => "Name or path of the file",
                 Purpose::Save => "Name or path to write to",
             };
-            let field = TextEdit::singleline(&mut self.typed).id(id).hint_text(hint).desired_width(f32::INFINITY);
+            let field =
+                TextEdit::singleline(&mut self.typed).id(id).hint_text(hint).desired_width(f32::INFINITY);
             let response = ui.add(field).labelled_by(label.id);
             if response.changed() {
                 self.complaint = None;
@@ -182,7 +189,8 @@ impl PathDialog {
                 (Purpose::Save, None) => "Save",
                 (Purpose::Save, Some(_)) => "Replace",
             };
-            if ui.add_enabled(!self.typed.trim().is_empty(), Button::new(word)).clicked() {
+            let button = dialog::main_button(word, ui);
+            if ui.add_enabled(!self.typed.trim().is_empty(), button).clicked() {
                 *action = Some(Action::Accept);
             }
             if ui.button("Cancel").clicked() {
@@ -257,7 +265,12 @@ impl PathDialog {
 fn list(folder: &Path, request: &Request) -> Listing {
     let read = match fs::read_dir(folder) {
         Ok(read) => read,
-        Err(error) => return Listing { error: Some(format!("This folder cannot be read: {error}.")), ..Listing::default() },
+        Err(error) => {
+            return Listing {
+                error: Some(format!("This folder cannot be read: {error}.")),
+                ..Listing::default()
+            };
+        }
     };
     let mut entries: Vec<Entry> = read
         .filter_map(Result::ok)
@@ -358,7 +371,8 @@ mod tests {
         }
         fs::create_dir(folder.path().join("zoo")).unwrap();
         let harness = asking(Purpose::Open, folder.path(), "");
-        let names: Vec<&str> = harness.state().dialog.listing.entries.iter().map(|entry| entry.name.as_str()).collect();
+        let names: Vec<&str> =
+            harness.state().dialog.listing.entries.iter().map(|entry| entry.name.as_str()).collect();
         assert_eq!(names, ["zoo", "A.SVG", "b.spline"], "listed");
     }
 

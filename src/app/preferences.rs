@@ -106,7 +106,9 @@ fn set_aside(path: &Path, reason: &str) -> String {
              the file is kept as {}.",
             kept.display()
         ),
-        None => format!("The preferences in {place} could not be read: {reason}. The lab starts with the standard ones."),
+        None => format!(
+            "The preferences in {place} could not be read: {reason}. The lab starts with the standard ones."
+        ),
     }
 }
 
@@ -156,9 +158,16 @@ mod tests {
     #[test]
     fn sizes_that_no_panel_can_have_are_left_out() {
         let folder = tempfile::tempdir().unwrap();
-        fs::write(folder.path().join(FILE_NAME), r#"{"panel_sizes": {"left": 1e9, "right": -3, "knot_line": 160}}"#)
-            .unwrap();
+        fs::write(
+            folder.path().join(FILE_NAME),
+            r#"{"panel_sizes": {"left": 1e9, "right": -3, "knot_line": 160}}"#,
+        )
+        .unwrap();
         let (loaded, _) = load(folder.path());
-        assert_eq!(loaded.panel_sizes.into_iter().collect::<Vec<_>>(), [("knot_line".to_owned(), 160.0)], "kept sizes");
+        assert_eq!(
+            loaded.panel_sizes.into_iter().collect::<Vec<_>>(),
+            [("knot_line".to_owned(), 160.0)],
+            "kept sizes"
+        );
     }
 }

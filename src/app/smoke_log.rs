@@ -60,7 +60,12 @@ impl SmokeLog {
     }
 
     /// Called at the end of every frame. `screen_from_world` gives logical pixels, `None` before the canvas was shown.
-    pub(crate) fn frame(&mut self, lab: &Lab, screen_from_world: &dyn Fn(DVec2) -> Option<Pos2>, ctx: &Context) {
+    pub(crate) fn frame(
+        &mut self,
+        lab: &Lab,
+        screen_from_world: &dyn Fn(DVec2) -> Option<Pos2>,
+        ctx: &Context,
+    ) {
         let scale = f64::from(ctx.pixels_per_point());
         let pixel = |world: DVec2| {
             screen_from_world(world).map(|at| [f64::from(at.x) * scale, f64::from(at.y) * scale])
@@ -115,9 +120,12 @@ fn free_place(lab: &Lab, pixel: &dyn Fn(DVec2) -> Option<[f64; 2]>) -> Option<[f
     let (left, right) = space.parameter_interval();
     let on_screen = |world: DVec2| pixel(world).map(DVec2::from_array);
     let at = |t: f64| curve.evaluate(t).ok().and_then(on_screen);
-    let knots = space.knots().iter().filter(|&&knot| left <= knot && knot <= right).filter_map(|&knot| at(knot));
-    let handles: Vec<DVec2> = curve.points().iter().filter_map(|&point| on_screen(point)).chain(knots).collect();
-    let distance = |place: DVec2| handles.iter().map(|&handle| handle.distance(place)).fold(f64::INFINITY, f64::min);
+    let knots =
+        space.knots().iter().filter(|&&knot| left <= knot && knot <= right).filter_map(|&knot| at(knot));
+    let handles: Vec<DVec2> =
+        curve.points().iter().filter_map(|&point| on_screen(point)).chain(knots).collect();
+    let distance =
+        |place: DVec2| handles.iter().map(|&handle| handle.distance(place)).fold(f64::INFINITY, f64::min);
     (1..SAMPLES)
         .filter_map(|sample| at(left + (right - left) * sample as f64 / SAMPLES as f64))
         .map(|place| (distance(place), place))

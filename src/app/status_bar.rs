@@ -16,7 +16,11 @@ pub(crate) fn show(lab: &Lab, ui: &mut Ui) {
             let kind = if curve.is_polynomial() { "" } else { "rational " };
             let ends = if curve.space().is_periodic() { "closed" } else { "open" };
             let points = curve.points().len();
-            let text = format!("{}: {ends} {kind}curve of degree {}, {points} control points", object.name, curve.degree());
+            let text = format!(
+                "{}: {ends} {kind}curve of degree {}, {points} control points",
+                object.name,
+                curve.degree()
+            );
             ui.label(RichText::new(text).small().color(muted));
         }
         if let Some(note) = &lab.shape_note {

@@ -20,7 +20,8 @@ pub(crate) fn show(lab: &mut Lab, workspaces: &[&str], current: &mut usize, ui: 
         toggle("Select", Command::SelectTool, lab.tool == Tool::Select, lab, ui);
         toggle("Draw", Command::DrawTool, lab.tool == Tool::Draw, lab, ui);
         ui.separator();
-        let (undo, redo) = (lab.history.undo_name().map(str::to_owned), lab.history.redo_name().map(str::to_owned));
+        let (undo, redo) =
+            (lab.history.undo_name().map(str::to_owned), lab.history.redo_name().map(str::to_owned));
         step("⟲", "Undo", Command::Undo, undo, lab, ui);
         step("⟳", "Redo", Command::Redo, redo, lab, ui);
         ui.separator();

@@ -13,7 +13,8 @@ use crate::app::shortcut_sheet::ShortcutSheet;
 use crate::app::smoke_log::SmokeLog;
 use crate::app::workspace::{self, Workspace};
 use crate::app::{
-    LEFT_PANEL, RIGHT_PANEL, files, inspector, lesson_panel, look, menu_bar, object_list, status_bar, stepper_panel, toolbar,
+    LEFT_PANEL, RIGHT_PANEL, files, inspector, lesson_panel, look, menu_bar, object_list, status_bar,
+    stepper_panel, toolbar,
 };
 use crate::document::first_scene;
 use crate::figure::theme::Theme;
@@ -33,7 +34,10 @@ pub struct LabApp {
 
 impl std::fmt::Debug for LabApp {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("LabApp").field("lab", &self.lab).field("current", &self.current).finish_non_exhaustive()
+        f.debug_struct("LabApp")
+            .field("lab", &self.lab)
+            .field("current", &self.current)
+            .finish_non_exhaustive()
     }
 }
 
@@ -144,23 +148,26 @@ impl LabApp {
         }
         if open(lab, RIGHT_PANEL) {
             let size = files.panel_size(RIGHT_PANEL, 290.0);
-            let panel = Panel::right(RIGHT_PANEL).default_size(size).size_range(230.0..=560.0).show(ui, |ui| {
-                ui.add_space(4.0);
-                ui.horizontal(|ui| {
-                    for (page, text) in
-                        [(SidePage::Inspector, "Inspector"), (SidePage::Stepper, "Stepper"), (SidePage::Lesson, "Lesson")]
-                    {
-                        ui.selectable_value(&mut lab.side, page, text);
+            let panel =
+                Panel::right(RIGHT_PANEL).default_size(size).size_range(230.0..=560.0).show(ui, |ui| {
+                    ui.add_space(4.0);
+                    ui.horizontal(|ui| {
+                        for (page, text) in [
+                            (SidePage::Inspector, "Inspector"),
+                            (SidePage::Stepper, "Stepper"),
+                            (SidePage::Lesson, "Lesson"),
+                        ] {
+                            ui.selectable_value(&mut lab.side, page, text);
+                        }
+                    });
+                    ui.separator();
+                    lab.stepper.open = lab.side == SidePage::Stepper;
+                    match lab.side {
+                        SidePage::Inspector => inspector::show(lab, ui),
+                        SidePage::Stepper => stepper_panel::show(lab, ui),
+                        SidePage::Lesson => lesson_panel::show(lab, ui),
                     }
                 });
-                ui.separator();
-                lab.stepper.open = lab.side == SidePage::Stepper;
-                match lab.side {
-                    SidePage::Inspector => inspector::show(lab, ui),
-                    SidePage::Stepper => stepper_panel::show(lab, ui),
-                    SidePage::Lesson => lesson_panel::show(lab, ui),
-                }
-            });
             files.note_panel_size(RIGHT_PANEL, panel.response.rect.width());
         } else {
             lab.stepper.open = false;
@@ -173,7 +180,8 @@ impl LabApp {
             return;
         }
         // A shortcut with more modifiers must be asked for first, or Ctrl+Z would answer to Ctrl+Shift+Z.
-        let mut commands: Vec<Command> = Command::ALL.into_iter().filter(|command| command.shortcut().is_some()).collect();
+        let mut commands: Vec<Command> =
+            Command::ALL.into_iter().filter(|command| command.shortcut().is_some()).collect();
         commands.sort_by_key(|command| {
             command.shortcut().map_or(0, |shortcut| {
                 let keys = shortcut.modifiers;

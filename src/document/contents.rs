@@ -62,7 +62,10 @@ impl Document {
             curve.points().iter().copied()
         });
         points.fold(None, |bounds, point| {
-            Some(bounds.map_or((point, point), |(low, high): (DVec2, DVec2)| (low.min(point), high.max(point))))
+            Some(
+                bounds
+                    .map_or((point, point), |(low, high): (DVec2, DVec2)| (low.min(point), high.max(point))),
+            )
         })
     }
 

@@ -70,11 +70,13 @@ impl CurveDisplay {
             }
         }
         if self.width <= 0.0 || self.width > Self::MAX_WIDTH {
-            let reason = format!("width is {}; it must be above 0 and at most {}", self.width, Self::MAX_WIDTH);
+            let reason =
+                format!("width is {}; it must be above 0 and at most {}", self.width, Self::MAX_WIDTH);
             return Err(SplineError::NoSolution { reason });
         }
         if self.comb_teeth == 0 || self.comb_teeth > Self::MAX_TEETH {
-            let reason = format!("comb_teeth is {}; it must be from 1 to {}", self.comb_teeth, Self::MAX_TEETH);
+            let reason =
+                format!("comb_teeth is {}; it must be from 1 to {}", self.comb_teeth, Self::MAX_TEETH);
             return Err(SplineError::NoSolution { reason });
         }
         Ok(())

@@ -316,10 +316,14 @@ impl ShapeChange {
         match *self {
             Self::None => None,
             Self::Kept { deviation: 0.0 } => Some("The shape is kept exactly.".to_owned()),
-            Self::Kept { deviation } => Some(format!("The shape is kept (deviation at most {deviation:.1e}).")),
-            Self::Changed { deviation: Some(deviation), at: Some(at) } => {
-                Some(format!("The shape changes by at most {}, most near t = {}.", short(deviation), short(at)))
+            Self::Kept { deviation } => {
+                Some(format!("The shape is kept (deviation at most {deviation:.1e})."))
             }
+            Self::Changed { deviation: Some(deviation), at: Some(at) } => Some(format!(
+                "The shape changes by at most {}, most near t = {}.",
+                short(deviation),
+                short(at)
+            )),
             Self::Changed { deviation: Some(deviation), at: None } => {
                 Some(format!("The shape changes by at most {}.", short(deviation)))
             }

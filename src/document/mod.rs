@@ -6,8 +6,8 @@
 //! [`save`] and [`load`] keep files, [`Autosave`] what has not been saved yet.
 
 mod apply;
-mod display;
 mod contents;
+mod display;
 mod edit;
 mod file_error;
 mod history;
@@ -19,8 +19,8 @@ mod samples;
 mod storage;
 mod view;
 
-pub use display::{CurveDisplay, PointLabels};
 pub use contents::Document;
+pub use display::{CurveDisplay, PointLabels};
 pub use edit::{Edit, EditError, MAX_EDIT_DEGREE, Outcome, ShapeChange};
 pub use file_error::FileError;
 pub use history::{DEFAULT_BUDGET, History};

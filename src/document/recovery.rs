@@ -245,7 +245,9 @@ fn files_named(dir: &Path, prefix: &str, suffix: &str) -> Vec<PathBuf> {
 
 fn remove_if_there(path: &Path) -> Result<(), FileError> {
     match fs::remove_file(path) {
-        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(FileError::io("remove", path, error)),
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+            Err(FileError::io("remove", path, error))
+        }
         _ => Ok(()),
     }
 }

@@ -45,7 +45,9 @@ pub(in crate::document) fn read_text(path: &Path) -> Result<String, FileError> {
     check_size(size)?;
     let mut bytes = Vec::new();
     // The file may grow while it is read, and devices have no size.
-    file.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes).map_err(|error| FileError::io("read", path, error))?;
+    file.take(MAX_FILE_BYTES + 1)
+        .read_to_end(&mut bytes)
+        .map_err(|error| FileError::io("read", path, error))?;
     check_size(bytes.len() as u64)?;
     String::from_utf8(bytes).map_err(|error| FileError::NotText { offset: error.utf8_error().valid_up_to() })
 }

@@ -119,7 +119,8 @@ pub fn read_document(path: &Path) -> Result<Saved, ByEndingError> {
             let text = read_svg(path)?;
             let json = read_embedded_document(&text)
                 .map_err(|error| ByEndingError::Svg { path: path.to_owned(), error })?;
-            document::from_json(&json).map_err(|error| ByEndingError::Document { path: path.to_owned(), error })
+            document::from_json(&json)
+                .map_err(|error| ByEndingError::Document { path: path.to_owned(), error })
         }
         _ => Err(unknown_ending(path, &[EXTENSION, "svg"])),
     }

@@ -1,7 +1,7 @@
 //! Figures for paper and other programs.
 
-mod page;
 pub mod by_ending;
+mod page;
 pub mod pdf;
 pub mod png;
 pub mod svg;

@@ -1,6 +1,8 @@
 //! The canvas: camera, picture, handles, and the hands on them.
 
-use eframe::egui::{self, Align2, CursorIcon, Key, Modifiers, PointerButton, Pos2, Rect, Sense, Stroke, StrokeKind, Ui, vec2};
+use eframe::egui::{
+    self, Align2, CursorIcon, Key, Modifiers, PointerButton, Pos2, Rect, Sense, Stroke, StrokeKind, Ui, vec2,
+};
 use glam::DVec2;
 
 use crate::app::command::Command;
@@ -92,7 +94,8 @@ impl Canvas {
 
     /// Brings all objects into the canvas.
     fn fit(&mut self, lab: &mut Lab) {
-        let (low, high) = lab.history.document().bounding_box().unwrap_or((DVec2::splat(-4.0), DVec2::splat(4.0)));
+        let (low, high) =
+            lab.history.document().bounding_box().unwrap_or((DVec2::splat(-4.0), DVec2::splat(4.0)));
         let margin = FIT_MARGIN.min(0.12 * lab.canvas_size.min_element());
         let fitting = Viewport::fitting(low, high, lab.canvas_size, margin);
         lab.view.camera.center = fitting.center;
@@ -151,7 +154,8 @@ impl Canvas {
         let alt = ui.input(|input| input.modifiers.alt);
         let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta(), input.zoom_delta()));
         let factor = f64::from(pinch) * (f64::from(scroll.y) / 240.0).exp();
-        if let Some(pointer) = ui.input(|input| input.pointer.hover_pos()).filter(|_| response.contains_pointer() && !alt)
+        if let Some(pointer) =
+            ui.input(|input| input.pointer.hover_pos()).filter(|_| response.contains_pointer() && !alt)
             && (factor - 1.0).abs() > 1e-9
         {
             let before = world_from_screen(&viewport(lab), rect, pointer);
@@ -161,7 +165,15 @@ impl Canvas {
         }
     }
 
-    fn use_hands(&mut self, lab: &mut Lab, response: &egui::Response, viewport: &Viewport, rect: Rect, target: Target, ui: &Ui) {
+    fn use_hands(
+        &mut self,
+        lab: &mut Lab,
+        response: &egui::Response,
+        viewport: &Viewport,
+        rect: Rect,
+        target: Target,
+        ui: &Ui,
+    ) {
         let keys = ui.input(|input| input.modifiers);
         let Some(pointer) = ui.input(|input| input.pointer.latest_pos()) else { return };
         let (pressed, down, released) = ui.input(|input| {
@@ -249,7 +261,15 @@ impl Canvas {
         let hint = hint(lab);
         if let Some(hint) = hint {
             let at = rect.center_top() + vec2(0.0, 14.0);
-            paint_note(&painter, at, Align2::CENTER_TOP, hint, 13.0, lab.theme.muted_text, lab.theme.background);
+            paint_note(
+                &painter,
+                at,
+                Align2::CENTER_TOP,
+                hint,
+                13.0,
+                lab.theme.muted_text,
+                lab.theme.background,
+            );
         }
     }
 
@@ -286,13 +306,17 @@ fn viewport(lab: &Lab) -> Viewport {
 
 fn hint(lab: &Lab) -> Option<&'static str> {
     if lab.tool == Tool::Draw {
-        return Some("Click control points. Enter or a double click ends, a click on the first point closes, Backspace drops the last.");
+        return Some(
+            "Click control points. Enter or a double click ends, a click on the first point closes, Backspace drops the last.",
+        );
     }
     if lab.history.document().is_empty() {
         return Some("Press D and click control points to draw a curve.");
     }
     let untouched = lab.history.steps() == (0, 0) && lab.path.is_none() && lab.lesson.is_none();
-    untouched.then_some("Drag a round handle.  Double-click a curve to insert a knot.  Slide the square to move t.")
+    untouched.then_some(
+        "Drag a round handle.  Double-click a curve to insert a knot.  Slide the square to move t.",
+    )
 }
 
 /// The part of the scheme that the stepper shows.
@@ -323,13 +347,17 @@ fn hover(lab: &mut Lab, target: Target) {
 
 /// Arrow keys move the selected points by a tenth of the grid, Shift ten times, Ctrl a tenth of that.
 fn nudge(lab: &mut Lab, viewport: &Viewport, ui: &Ui) {
-    if ui.text_edit_focused() || lab.selection.points.is_empty() || ui.memory(|memory| memory.focused().is_some()) {
+    let keys_are_taken = ui.memory(|memory| memory.focused().is_some() || memory.top_modal_layer().is_some());
+    if keys_are_taken || lab.selection.points.is_empty() {
         return;
     }
     let Some(object) = lab.selection.object else { return };
-    for (key, direction) in
-        [(Key::ArrowLeft, -DVec2::X), (Key::ArrowRight, DVec2::X), (Key::ArrowUp, DVec2::Y), (Key::ArrowDown, -DVec2::Y)]
-    {
+    for (key, direction) in [
+        (Key::ArrowLeft, -DVec2::X),
+        (Key::ArrowRight, DVec2::X),
+        (Key::ArrowUp, DVec2::Y),
+        (Key::ArrowDown, -DVec2::Y),
+    ] {
         for (keys, factor) in [(Modifiers::NONE, 1.0), (Modifiers::SHIFT, 10.0), (Modifiers::CTRL, 0.1)] {
             let pressed = ui.input_mut(|input| {
                 let wanted = input.modifiers.shift == keys.shift && input.modifiers.ctrl == keys.ctrl;
@@ -388,7 +416,9 @@ fn edit_selected(command: Command, lab: &mut Lab) -> bool {
         Command::RemoveKnot => match lab.selection.knot {
             Some(at) => Edit::RemoveKnot { object, at },
             None => {
-                lab.problem("Select a knot first: click its diamond on the curve or its handle on the knot line.");
+                lab.problem(
+                    "Select a knot first: click its diamond on the curve or its handle on the knot line.",
+                );
                 return true;
             }
         },

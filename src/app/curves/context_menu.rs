@@ -13,7 +13,10 @@ pub(super) fn show(target: Target, lab: &mut Lab, ui: &mut Ui) {
     ui.set_min_width(190.0);
     match target {
         Target::Point(object, point) => {
-            let Some(weight) = lab.history.document().curve(object).map(|curve| curve.weights()[point]) else { return };
+            let Some(weight) = lab.history.document().curve(object).map(|curve| curve.weights()[point])
+            else {
+                return;
+            };
             ui.weak(format!("Control point {point}, weight {}", short_number(weight)));
             for (text, factor) in [("Weight × 2", 2.0), ("Weight ÷ 2", 0.5)] {
                 if ui.button(text).clicked() {
@@ -40,7 +43,8 @@ pub(super) fn show(target: Target, lab: &mut Lab, ui: &mut Ui) {
             object_entries(lab, ui);
         }
         Target::Knot(object, value) => {
-            let multiplicity = lab.history.document().curve(object).map_or(0, |curve| curve.space().multiplicity(value));
+            let multiplicity =
+                lab.history.document().curve(object).map_or(0, |curve| curve.space().multiplicity(value));
             ui.weak(format!("Knot {}, multiplicity {multiplicity}", short_number(value)));
             if ui.button("One more copy (shape kept)").clicked() {
                 lab.edit(Edit::InsertKnot { object, at: value });

@@ -24,7 +24,14 @@ pub(super) struct Drawing {
 
 impl Drawing {
     /// A click at `world`; on the first point it closes the curve.
-    pub(super) fn click(&mut self, world: DVec2, pointer: Pos2, lab: &mut Lab, viewport: &Viewport, rect: Rect) {
+    pub(super) fn click(
+        &mut self,
+        world: DVec2,
+        pointer: Pos2,
+        lab: &mut Lab,
+        viewport: &Viewport,
+        rect: Rect,
+    ) {
         let on_first = self.points.len() >= 3
             && screen_from_world(viewport, rect, self.points[0]).distance(pointer) <= CLOSING_REACH;
         if on_first {
@@ -73,9 +80,17 @@ impl Drawing {
     }
 
     /// The polygon so far, the curve it would make, and the line to the pointer.
-    pub(super) fn paint(&self, pointer: Option<Pos2>, lab: &Lab, viewport: &Viewport, rect: Rect, painter: &Painter) {
+    pub(super) fn paint(
+        &self,
+        pointer: Option<Pos2>,
+        lab: &Lab,
+        viewport: &Viewport,
+        rect: Rect,
+        painter: &Painter,
+    ) {
         let ink = color32(lab.theme.accent);
-        let mut corners: Vec<Pos2> = self.points.iter().map(|&at| screen_from_world(viewport, rect, at)).collect();
+        let mut corners: Vec<Pos2> =
+            self.points.iter().map(|&at| screen_from_world(viewport, rect, at)).collect();
         let mut places = self.points.clone();
         if let Some(pointer) = pointer {
             corners.push(pointer);
@@ -101,7 +116,10 @@ impl Drawing {
 }
 
 /// The curve with these control points: cubic, or of the highest degree they allow; ends interpolated, or closed.
-pub(super) fn drawn_curve(points: &[DVec2], closed: bool) -> Result<Nurbs<DVec2>, crate::core::bspline::SplineError> {
+pub(super) fn drawn_curve(
+    points: &[DVec2],
+    closed: bool,
+) -> Result<Nurbs<DVec2>, crate::core::bspline::SplineError> {
     let count = points.len();
     let degree = DEGREE.min(count.saturating_sub(1)).max(1);
     let space = if closed {
@@ -122,7 +140,10 @@ pub(super) fn drawn_curve(points: &[DVec2], closed: bool) -> Result<Nurbs<DVec2>
 
 fn next_name(lab: &Lab) -> String {
     let taken = |name: &str| lab.history.document().objects().iter().any(|object| object.name == name);
-    (1..).map(|number| format!("Curve {number}")).find(|name| !taken(name)).unwrap_or_else(|| "Curve".to_owned())
+    (1..)
+        .map(|number| format!("Curve {number}"))
+        .find(|name| !taken(name))
+        .unwrap_or_else(|| "Curve".to_owned())
 }
 
 #[cfg(test)]
@@ -132,11 +153,15 @@ mod tests {
     #[test]
     fn a_drawn_curve_starts_and_ends_at_its_first_and_last_point() {
         for count in 2..9 {
-            let points: Vec<DVec2> = (0..count).map(|k| DVec2::new(f64::from(k), f64::from(k * k % 5))).collect();
+            let points: Vec<DVec2> =
+                (0..count).map(|k| DVec2::new(f64::from(k), f64::from(k * k % 5))).collect();
             let curve = drawn_curve(&points, false).unwrap();
             let (left, right) = curve.space().parameter_interval();
             assert_eq!(curve.evaluate(left).unwrap(), points[0], "{count} points: start");
-            assert!(curve.evaluate(right).unwrap().distance(points[points.len() - 1]) < 1e-14, "{count} points: end");
+            assert!(
+                curve.evaluate(right).unwrap().distance(points[points.len() - 1]) < 1e-14,
+                "{count} points: end"
+            );
         }
     }
 

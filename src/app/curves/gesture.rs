@@ -39,7 +39,14 @@ pub(super) struct Gesture {
 
 impl Gesture {
     /// The button went down on `target`.
-    pub(super) fn press(target: Target, pointer: Pos2, lab: &mut Lab, viewport: &Viewport, rect: Rect, keys: Modifiers) -> Self {
+    pub(super) fn press(
+        target: Target,
+        pointer: Pos2,
+        lab: &mut Lab,
+        viewport: &Viewport,
+        rect: Rect,
+        keys: Modifiers,
+    ) -> Self {
         let before = lab.selection.points.clone();
         let mut grabbed = DVec2::ZERO;
         if let Target::Point(object, point) = target {
@@ -71,7 +78,14 @@ impl Gesture {
     }
 
     /// The pointer moved with the button down.
-    pub(super) fn drag(&mut self, pointer: Pos2, lab: &mut Lab, viewport: &Viewport, rect: Rect, keys: Modifiers) {
+    pub(super) fn drag(
+        &mut self,
+        pointer: Pos2,
+        lab: &mut Lab,
+        viewport: &Viewport,
+        rect: Rect,
+        keys: Modifiers,
+    ) {
         if !self.moved && pointer.distance(self.from) < DEAD_ZONE {
             return;
         }
@@ -81,7 +95,11 @@ impl Gesture {
             Target::Point(object, _) => {
                 let points: Vec<usize> = lab.selection.points.iter().copied().collect();
                 let delta = self.delta(world, viewport, keys);
-                lab.begin(if points.len() == 1 { "Move point".to_owned() } else { format!("Move {} points", points.len()) });
+                lab.begin(if points.len() == 1 {
+                    "Move point".to_owned()
+                } else {
+                    format!("Move {} points", points.len())
+                });
                 lab.update(Edit::MovePoints { object, points, delta });
             }
             Target::Bead(object, point) => {
@@ -91,7 +109,8 @@ impl Gesture {
                 }
             }
             Target::Parameter(object) | Target::Curve(object, _) | Target::Knot(object, _) => {
-                let nearest = lab.history.document().curve(object).and_then(|curve| curve.closest_point(world).ok());
+                let nearest =
+                    lab.history.document().curve(object).and_then(|curve| curve.closest_point(world).ok());
                 if let Some(nearest) = nearest {
                     lab.set_parameter(object, nearest.parameter);
                 }
@@ -102,7 +121,8 @@ impl Gesture {
                 let found: BTreeSet<usize> = lab.curve().map_or_else(BTreeSet::new, |curve| {
                     curve.points().iter().enumerate().filter(|&(_, &at)| inside(at)).map(|(k, _)| k).collect()
                 });
-                lab.selection.points = if keys.shift { self.before.union(&found).copied().collect() } else { found };
+                lab.selection.points =
+                    if keys.shift { self.before.union(&found).copied().collect() } else { found };
             }
         }
     }

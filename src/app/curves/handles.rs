@@ -41,7 +41,12 @@ fn pull(curve: &Nurbs<DVec2>, index: usize) -> Option<Pull> {
     let point = curve.points()[index];
     let numerator = lifted.truncate() - point * (weight * influence);
     // A point that the curve passes through (an end, an n-fold knot) cannot be weighed there.
-    (influence > 1e-9 && rest > 1e-9 * lifted.z).then(|| Pull { base: numerator / rest, point, rest, influence })
+    (influence > 1e-9 && rest > 1e-9 * lifted.z).then(|| Pull {
+        base: numerator / rest,
+        point,
+        rest,
+        influence,
+    })
 }
 
 /// The selected point that has a weight bead, and where the bead is.
@@ -78,7 +83,12 @@ pub(super) fn paint(lab: &Lab, viewport: &Viewport, rect: Rect, painter: &Painte
             continue;
         }
         for &point in &lab.selection.points {
-            painter.circle(place(curve.points()[point]), 7.5, selection.gamma_multiply(0.35), Stroke::new(2.0, selection));
+            painter.circle(
+                place(curve.points()[point]),
+                7.5,
+                selection.gamma_multiply(0.35),
+                Stroke::new(2.0, selection),
+            );
         }
         if let Some((index, bead)) = bead_place(lab, object) {
             paint_bead(lab, curve, index, place(bead), place(curve.points()[index]), painter);
@@ -116,10 +126,25 @@ fn paint_parameter(lab: &Lab, parameter: f64, at: Pos2, painter: &Painter) {
     );
     let text = format!("t = {}", short_number(parameter));
     let theme = &lab.theme;
-    paint_note(painter, at + vec2(10.0, -10.0), Align2::LEFT_BOTTOM, &text, 12.0, theme.text, theme.background);
+    paint_note(
+        painter,
+        at + vec2(10.0, -10.0),
+        Align2::LEFT_BOTTOM,
+        &text,
+        12.0,
+        theme.text,
+        theme.background,
+    );
 }
 
-fn paint_hover(lab: &Lab, object: &Object, curve: &Nurbs<DVec2>, viewport: &Viewport, rect: Rect, painter: &Painter) {
+fn paint_hover(
+    lab: &Lab,
+    object: &Object,
+    curve: &Nurbs<DVec2>,
+    viewport: &Viewport,
+    rect: Rect,
+    painter: &Painter,
+) {
     let place = |world: DVec2| screen_from_world(viewport, rect, world);
     let glow = color32(lab.theme.selection);
     match lab.hovered {
@@ -165,9 +190,21 @@ fn at_screen(world: DVec2, viewport: &Viewport, rect: Rect) -> Pos2 {
 }
 
 /// A broad line under the part of the curve over `[from, to]`.
-fn paint_part(curve: &Nurbs<DVec2>, from: f64, to: f64, ink: Color32, viewport: &Viewport, rect: Rect, painter: &Painter) {
+fn paint_part(
+    curve: &Nurbs<DVec2>,
+    from: f64,
+    to: f64,
+    ink: Color32,
+    viewport: &Viewport,
+    rect: Rect,
+    painter: &Painter,
+) {
     let (left, right) = curve.space().parameter_interval();
-    let (from, to) = if curve.space().is_periodic() { (from, to.min(from + right - left)) } else { (from.max(left), to.min(right)) };
+    let (from, to) = if curve.space().is_periodic() {
+        (from, to.min(from + right - left))
+    } else {
+        (from.max(left), to.min(right))
+    };
     let steps = 96;
     let point = |step: i32| {
         let parameter = from + (to - from) * f64::from(step) / f64::from(steps);

@@ -38,17 +38,25 @@ impl Target {
     pub(super) fn object(self) -> Option<ObjectId> {
         match self {
             Self::Nothing => None,
-            Self::Point(id, _) | Self::Bead(id, _) | Self::Parameter(id) | Self::Knot(id, _) | Self::Curve(id, _) => {
-                Some(id)
-            }
+            Self::Point(id, _)
+            | Self::Bead(id, _)
+            | Self::Parameter(id)
+            | Self::Knot(id, _)
+            | Self::Curve(id, _) => Some(id),
         }
     }
 }
 
 /// The target at `pointer`: handles of the selected object first, then those of the others, then knots, then curves.
 pub(super) fn target_at(lab: &Lab, viewport: &Viewport, rect: Rect, pointer: Pos2) -> Target {
-    let visible: Vec<&Object> =
-        lab.history.document().objects().iter().filter(|object| object.visible).map(|object| &**object).collect();
+    let visible: Vec<&Object> = lab
+        .history
+        .document()
+        .objects()
+        .iter()
+        .filter(|object| object.visible)
+        .map(|object| &**object)
+        .collect();
     let selected = visible.iter().copied().find(|object| lab.selection.object == Some(object.id));
     let near = |world: DVec2, reach: f32| screen_from_world(viewport, rect, world).distance(pointer) <= reach;
     if let Some(object) = selected {

@@ -28,7 +28,10 @@ const PREFERENCES_REST: f64 = 1.0;
 pub(super) fn abandoned(folder: &Path) -> (Vec<Recovered>, Option<String>) {
     let mut recovered = Autosave::abandoned(folder);
     recovered.sort_by_key(|document| std::cmp::Reverse(document.written));
-    let damaged: Vec<String> = Autosave::damaged(folder).iter().map(|damaged| format!("{}: {}", damaged.path.display(), damaged.error)).collect();
+    let damaged: Vec<String> = Autosave::damaged(folder)
+        .iter()
+        .map(|damaged| format!("{}: {}", damaged.path.display(), damaged.error))
+        .collect();
     let message = (!damaged.is_empty()).then(|| damaged.join("\n"));
     (recovered, message)
 }
@@ -191,7 +194,10 @@ impl Keeper {
             (Some(sheet), written) if written != Some(sheet.history.revision()) => {
                 self.aside = Some(sheet.history.revision());
                 let (document, view) = (sheet.history.document().clone(), sheet.view.clone());
-                self.send(Job::Write(Place::Aside, Box::new(Copy { document, view, original: sheet.path.clone() })));
+                self.send(Job::Write(
+                    Place::Aside,
+                    Box::new(Copy { document, view, original: sheet.path.clone() }),
+                ));
             }
             (None, Some(_)) => {
                 self.aside = None;
@@ -284,7 +290,9 @@ impl Worker {
             Place::Aside => &mut self.aside,
         };
         match slot {
-            Some(slot) => slot.clear().map_err(|error| format!("An autosaved copy could not be removed: {error}")),
+            Some(slot) => {
+                slot.clear().map_err(|error| format!("An autosaved copy could not be removed: {error}"))
+            }
             None => Ok(()),
         }
     }

@@ -70,7 +70,8 @@ impl Files {
     pub(crate) fn in_directories(file: Option<PathBuf>, lab: &mut Lab, directories: Directories) -> Self {
         let (preferences, message) =
             directories.config.as_deref().map_or_else(Default::default, preferences::load);
-        let mut problems: Vec<Problem> = message.map(|text| Problem::new("Preferences", text)).into_iter().collect();
+        let mut problems: Vec<Problem> =
+            message.map(|text| Problem::new("Preferences", text)).into_iter().collect();
         if let Some(theme) = Theme::by_name(&preferences.theme) {
             lab.theme = theme;
         }
@@ -188,18 +189,26 @@ impl Files {
     }
 
     fn ask_for_file(&mut self, wanted: Wanted, lab: &Lab) {
-        let name = lab.path.as_deref().and_then(Path::file_stem).map(|stem| stem.to_string_lossy().into_owned());
+        let name =
+            lab.path.as_deref().and_then(Path::file_stem).map(|stem| stem.to_string_lossy().into_owned());
         let name = name.unwrap_or_else(|| "untitled".to_owned());
         let of_document = lab.path.as_deref().and_then(Path::parent).map(Path::to_owned);
-        let folder = of_document.or_else(|| self.last_folder.clone()).or_else(|| std::env::current_dir().ok());
+        let folder =
+            of_document.or_else(|| self.last_folder.clone()).or_else(|| std::env::current_dir().ok());
         let folder = folder.unwrap_or_else(|| PathBuf::from("/"));
         let documents: &'static [&'static str] = &[EXTENSION, "svg"];
         let (purpose, title, kind, extensions, file_name) = match &wanted {
             Wanted::Open => (Purpose::Open, "Open a document", "documents", documents, String::new()),
-            Wanted::Save(_) => {
-                (Purpose::Save, "Save the document", "documents", &documents[..1], format!("{name}.{EXTENSION}"))
+            Wanted::Save(_) => (
+                Purpose::Save,
+                "Save the document",
+                "documents",
+                &documents[..1],
+                format!("{name}.{EXTENSION}"),
+            ),
+            Wanted::Figure => {
+                (Purpose::Save, "Export a figure", "figures", FIGURE_ENDINGS, format!("{name}.svg"))
             }
-            Wanted::Figure => (Purpose::Save, "Export a figure", "figures", FIGURE_ENDINGS, format!("{name}.svg")),
         };
         let request = Request { purpose, title, kind, extensions, folder, file_name };
         self.dialog = Some((FileDialog::ask(request, self.desktop), wanted));
@@ -261,7 +270,9 @@ impl Files {
                 }
             }
             // What was to be brought back keeps waiting when the question before it is cancelled.
-            (Reply::Cancel, Some(Question::Unsaved(Then::BringBack(recovered)))) => self.recovered.push(*recovered),
+            (Reply::Cancel, Some(Question::Unsaved(Then::BringBack(recovered)))) => {
+                self.recovered.push(*recovered)
+            }
             _ => {}
         }
         ui.ctx().request_repaint();
@@ -378,7 +389,8 @@ impl Files {
                 return;
             }
             Err(mpsc::TryRecvError::Disconnected) => {
-                self.problems.push(Problem::new("The figure was not written", "The writer stopped.".to_owned()));
+                self.problems
+                    .push(Problem::new("The figure was not written", "The writer stopped.".to_owned()));
             }
         }
         self.exporting = None;

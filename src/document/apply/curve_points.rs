@@ -214,7 +214,11 @@ fn space_without(space: &SplineSpace, deleted: &BTreeSet<usize>) -> Result<Splin
             space.period().map_or(direct, |period| direct.min((knot + period - greville[point]).abs()))
         };
         // The first knot of a period stays, so that the curve keeps its seam.
-        let interior = if space.is_periodic() { 1..knots.len() } else { space.degree() + 1..knots.len() - space.degree() - 1 };
+        let interior = if space.is_periodic() {
+            1..knots.len()
+        } else {
+            space.degree() + 1..knots.len() - space.degree() - 1
+        };
         let nearest = interior.min_by(|&a, &b| distance(knots[a]).total_cmp(&distance(knots[b])));
         if let Some(index) = nearest {
             knots.remove(index);

@@ -47,8 +47,11 @@ pub(super) fn set(document: &mut Document, object: ObjectId, degree: usize) -> R
             return Err(SplineError::SizeMismatch { what, expected, found: count }.into());
         }
         let clamped = old.multiplicity(left) == old.degree() && old.multiplicity(right) == old.degree();
-        let space =
-            if clamped { uniform_open(degree, count, left, right)? } else { simple_uniform(degree, count, left, right)? };
+        let space = if clamped {
+            uniform_open(degree, count, left, right)?
+        } else {
+            simple_uniform(degree, count, left, right)?
+        };
         let new = Nurbs::new(space, curve.points().to_vec(), curve.weights().to_vec())?;
         let shape = changed(curve, &new);
         Ok((new, shape))
@@ -66,8 +69,7 @@ fn check_degree(degree: usize) -> Result<(), EditError> {
 fn simple_uniform(degree: usize, count: usize, left: f64, right: f64) -> Result<SplineSpace, EditError> {
     let intervals = (count - degree) as f64;
     let step = (right - left) / intervals;
-    let knots = (0..=count + degree).map(|k| {
-        if k == count { right } else { left + step * (k as f64 - degree as f64) }
-    });
+    let knots = (0..=count + degree)
+        .map(|k| if k == count { right } else { left + step * (k as f64 - degree as f64) });
     Ok(SplineSpace::new(degree, knots.collect())?)
 }

@@ -81,7 +81,8 @@ pub(super) fn move_distinct(
         }
         let takes_left = !space.is_periodic() && after == n + 1 && first <= 1;
         let takes_right = !space.is_periodic() && first == space.dimension() && after + 1 >= knots.len();
-        let (from, until) = (if takes_left { 0 } else { first }, if takes_right { knots.len() } else { after });
+        let (from, until) =
+            (if takes_left { 0 } else { first }, if takes_right { knots.len() } else { after });
         let low = space.knot(from as isize - 1).unwrap_or(f64::NEG_INFINITY);
         let high = space.knot(until as isize).unwrap_or(f64::INFINITY);
         // Periodic knots: all M of them may stand in one place and then move freely.
@@ -124,10 +125,7 @@ fn replace_knots(curve: &Nurbs<DVec2>, knots: Vec<f64>) -> Result<(Nurbs<DVec2>,
 }
 
 /// `new` with the measured proof that it is `old`.
-pub(super) fn kept(
-    old: &Nurbs<DVec2>,
-    new: Nurbs<DVec2>,
-) -> Result<(Nurbs<DVec2>, ShapeChange), EditError> {
+pub(super) fn kept(old: &Nurbs<DVec2>, new: Nurbs<DVec2>) -> Result<(Nurbs<DVec2>, ShapeChange), EditError> {
     let deviation = deviation(old, &new)?.upper;
     Ok((new, ShapeChange::Kept { deviation }))
 }

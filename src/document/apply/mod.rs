@@ -48,12 +48,10 @@ impl Document {
             Edit::DuplicateObject { object } => objects::duplicate(self, *object),
             Edit::RenameObject { object, name } => objects::rename(self, *object, name),
             Edit::ReorderObject { object, to } => objects::reorder(self, *object, *to),
-            Edit::SetVisible { object, visible } => {
-                self.change(*object, |found| {
-                    found.visible = *visible;
-                    Ok(ShapeChange::None)
-                })
-            }
+            Edit::SetVisible { object, visible } => self.change(*object, |found| {
+                found.visible = *visible;
+                Ok(ShapeChange::None)
+            }),
             Edit::SetDisplay { object, display } => {
                 display.check()?;
                 self.change(*object, |found| {
@@ -97,9 +95,9 @@ impl Document {
             Edit::SetDegree { object, degree } => degree::set(self, *object, *degree),
             Edit::SetClosed { object, closed: true } => parametrization::close(self, *object),
             Edit::SetClosed { object, closed: false } => parametrization::open(self, *object),
-            Edit::Reverse { object } => self.change_curve(*object, |curve| {
-                Ok((parametrization::reversed(curve)?, ShapeChange::None))
-            }),
+            Edit::Reverse { object } => {
+                self.change_curve(*object, |curve| Ok((parametrization::reversed(curve)?, ShapeChange::None)))
+            }
             Edit::ReplaceCurve { object, curve, .. } => {
                 check_point_count(curve.points().len())?;
                 self.change_curve(*object, |old| {
@@ -113,7 +111,11 @@ impl Document {
 
     fn carry_out_all(&mut self, edits: &[Edit], depth: usize) -> Result<Outcome, EditError> {
         if depth >= MAX_BATCH_DEPTH {
-            return Err(EditError::TooMany { what: "nested batches", value: depth + 1, limit: MAX_BATCH_DEPTH });
+            return Err(EditError::TooMany {
+                what: "nested batches",
+                value: depth + 1,
+                limit: MAX_BATCH_DEPTH,
+            });
         }
         let mut all = Outcome { shape: ShapeChange::None, created: Vec::new() };
         for (index, edit) in edits.iter().enumerate() {
@@ -168,10 +170,9 @@ impl ShapeChange {
             (Self::None, other) | (other, Self::None) => other,
             (Self::Kept { deviation: a }, Self::Kept { deviation: b }) => Self::Kept { deviation: a + b },
             // The places of both largest distances say nothing about that of the sum.
-            (a, b) => Self::Changed {
-                deviation: a.deviation().zip(b.deviation()).map(|(a, b)| a + b),
-                at: None,
-            },
+            (a, b) => {
+                Self::Changed { deviation: a.deviation().zip(b.deviation()).map(|(a, b)| a + b), at: None }
+            }
         }
     }
 

@@ -30,7 +30,8 @@ pub fn construction_items(
 ) -> Vec<Item> {
     let Ok(scheme) = curve.de_boor_scheme(parameter) else { return Vec::new() };
     let points = scheme.triangle.map(|lifted| DVec2::project(lifted).0);
-    let shown = |level: usize, position: usize| reveal.is_none_or(|reveal| reveal.shown.contains(&(level, position)));
+    let shown =
+        |level: usize, position: usize| reveal.is_none_or(|reveal| reveal.shown.contains(&(level, position)));
     let lit = |level: usize, position: usize| {
         reveal.is_some_and(|reveal| reveal.highlighted.contains(&(level, position)))
     };
@@ -38,12 +39,14 @@ pub fn construction_items(
     let mut items = Vec::new();
     for (level, row) in points.levels().iter().enumerate() {
         let tint = level_color(level, last, display, theme);
-        let (tint, width) =
-            if level == 0 { (tint.with_opacity(0.45), 3.0) } else { (tint, 1.5) };
+        let (tint, width) = if level == 0 { (tint.with_opacity(0.45), 3.0) } else { (tint, 1.5) };
         let width = width * theme.stroke_scale;
         for position in 1..row.len() {
             if shown(level, position - 1) && shown(level, position) {
-                items.push(Item::Path(Path::polyline(&row[position - 1..=position], Stroke::solid(tint, width))));
+                items.push(Item::Path(Path::polyline(
+                    &row[position - 1..=position],
+                    Stroke::solid(tint, width),
+                )));
             }
         }
     }
@@ -54,7 +57,13 @@ pub fn construction_items(
                 let apex = level == last;
                 let size = if apex { 10.0 } else { 6.0 } * theme.stroke_scale.sqrt();
                 let stroke = Some(Stroke::solid(theme.background, 1.2));
-                items.push(Item::Marker(Marker { at, shape: MarkerShape::Disc, size, fill: Some(tint), stroke }));
+                items.push(Item::Marker(Marker {
+                    at,
+                    shape: MarkerShape::Disc,
+                    size,
+                    fill: Some(tint),
+                    stroke,
+                }));
             }
         }
     }

@@ -7,7 +7,9 @@ use crate::core::spline_curve::Nurbs;
 use crate::document::{CurveDisplay, PointLabels};
 use crate::figure::comb::curvature_comb;
 use crate::figure::curve::{curve_path, curve_span_paths};
-use crate::figure::picture::{Anchor, Color, Item, Label, Marker, MarkerShape, Path, Segment, Stroke, Viewport};
+use crate::figure::picture::{
+    Anchor, Color, Item, Label, Marker, MarkerShape, Path, Segment, Stroke, Viewport,
+};
 use crate::figure::theme::Theme;
 
 /// Largest distance, in pt, between a drawn curve and the exact one.
@@ -21,7 +23,12 @@ pub(super) fn color(display: &CurveDisplay, theme: &Theme) -> Color {
     theme.palette[display.color % theme.palette.len()]
 }
 
-pub(super) fn curve(curve: &Nurbs<DVec2>, display: &CurveDisplay, theme: &Theme, viewport: &Viewport) -> Vec<Item> {
+pub(super) fn curve(
+    curve: &Nurbs<DVec2>,
+    display: &CurveDisplay,
+    theme: &Theme,
+    viewport: &Viewport,
+) -> Vec<Item> {
     let tolerance = TOLERANCE / viewport.scale;
     let width = display.width * theme.stroke_scale;
     let item = |segments: Vec<Segment>, color: Color| {
@@ -250,7 +257,8 @@ mod tests {
             for step in 0..=50 {
                 let t = f64::from(step) / 50.0;
                 let s = 1.0 - t;
-                let point = start * s.powi(3) + a * (3.0 * s * s * t) + b * (3.0 * s * t * t) + end * t.powi(3);
+                let point =
+                    start * s.powi(3) + a * (3.0 * s * s * t) + b * (3.0 * s * t * t) + end * t.powi(3);
                 assert!((point.length() - 1.0).abs() < 2.8e-4, "radius {}", point.length());
             }
             start = end;

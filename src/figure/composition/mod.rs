@@ -87,7 +87,8 @@ fn push_curve(
     }
     picture.push_layer(layer("curve"), curve_layers::curve(curve, display, theme, viewport));
     if display.construction || reveal.is_some() {
-        picture.push_layer(layer("construction"), construction_items(curve, parameter, reveal, display, theme));
+        picture
+            .push_layer(layer("construction"), construction_items(curve, parameter, reveal, display, theme));
     }
     if display.knots {
         picture.push_layer(layer("knots"), curve_layers::knots(curve, display, theme));
