@@ -3,6 +3,7 @@
 use eframe::egui::{self, Grid, Key, Modifiers, RichText, ScrollArea, Ui, Window};
 
 use crate::app::command::{Command, Menu};
+use crate::app::command_state::key_text;
 use crate::app::lab::Lab;
 
 /// What the mouse and the arrow keys do.
@@ -65,13 +66,11 @@ impl ShortcutSheet {
                 ScrollArea::vertical().max_height(room.y - 110.0).show(ui, |ui| {
                     if wide {
                         ui.columns(2, |columns| {
-                            for menu in [Menu::File, Menu::Edit, Menu::Curve] {
+                            for menu in [Menu::File, Menu::Edit, Menu::Curve, Menu::Lesson, Menu::Help] {
                                 keys(menu, &mut columns[0]);
                             }
-                            hands(&mut columns[0]);
-                            for menu in [Menu::View, Menu::Lesson, Menu::Help] {
-                                keys(menu, &mut columns[1]);
-                            }
+                            keys(Menu::View, &mut columns[1]);
+                            hands(&mut columns[1]);
                         });
                     } else {
                         Menu::ALL.into_iter().for_each(|menu| keys(menu, ui));
@@ -84,8 +83,8 @@ impl ShortcutSheet {
 
 fn keys(menu: Menu, ui: &mut Ui) {
     let lines = Command::ALL.into_iter().filter(|command| command.menu() == menu).filter_map(|command| {
-        let shortcut = command.shortcut()?;
-        Some((ui.ctx().format_shortcut(&shortcut), command.text().0.trim_end_matches('…').to_owned()))
+        let key = key_text(command, ui.ctx())?;
+        Some((key, command.text().0.trim_end_matches('…').to_owned()))
     });
     let lines: Vec<(String, String)> = lines.collect();
     section(menu.title(), &lines, ui);

@@ -265,7 +265,7 @@ fn preferences_come_back_at_the_next_start() {
 fn every_file_command_is_taken_and_no_other() {
     let mut lab = test_bench::lab();
     let mut files = Files::in_directories(None, &mut lab, Directories::none());
-    let ctx = egui::Context::default();
+    let ctx = Context::default();
     for command in Command::ALL {
         let is_file = command.menu() == crate::app::command::Menu::File;
         assert_eq!(files.execute(command, &mut lab, &ctx), is_file, "{command:?}");
