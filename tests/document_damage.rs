@@ -1,5 +1,7 @@
 //! Damaged, truncated, newer and hostile files: an error that says where and what, never a panic, never another document.
 
+#![allow(clippy::unwrap_used, reason = "the functions that prepare a test fail it")]
+
 use spline_lab::document::{
     Document, FileError, MAX_FILE_BYTES, View, first_scene, from_json, load, to_json,
 };
@@ -118,8 +120,8 @@ fn impossible_values_are_named_with_their_place() {
         (format!("\"name\": \"L\", \"degree\": 1, {line}, \"weights\": [1, \"x\"]"), "objects[0].weights[1] (line 1"),
         (format!("\"name\": \"L\", \"degree\": 1, {line}, \"period\": 0.5"), "objects[0].period: the last knot 3"),
         (format!("\"name\": \"L\", \"degree\": 1, {line}, \"colour\": 3"), "objects[0].colour (line 1"),
-        (format!("\"name\": \"L\", \"degree\": 1, {line}, \"display\": {{\"width\": 0}}"), "objects[0].display: "),
-        (format!("\"name\": \"L\", \"degree\": 1, {line}, \"display\": {{\"comb_teeth\": 4000000000}}"), "objects[0].display: "),
+        (format!("\"name\": \"L\", \"degree\": 1, {line}, \"display\": {{\"width\": 0}}"), "objects[0].display: width is 0; it must be from 0.01 to 100"),
+        (format!("\"name\": \"L\", \"degree\": 1, {line}, \"display\": {{\"comb_teeth\": 4000000000}}"), "objects[0].display: comb_teeth is 4000000000; it must be from 1 to 1000"),
         (format!("\"name\": \"L\", \"degree\": 1, {line}, \"display\": {{\"glow\": true}}"), "objects[0].display.glow"),
         ("\"name\": \"L\", \"degree\": 1, \"knots\": [0, 1, 0.5, 3], \"points\": [[0, 0], [1, 1]]".to_owned(), "objects[0].knots[2]: knot 2 is 0.5, smaller than the knot 1"),
         ("\"name\": \"L\", \"degree\": 1, \"knots\": [0, 1, 2, 3], \"points\": [[0, 0], [1, 1e999]]".to_owned(), "line 1"),

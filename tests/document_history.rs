@@ -1,5 +1,7 @@
 //! Undo and redo are exact, whatever was done.
 
+#![allow(clippy::unwrap_used, reason = "the functions that prepare a test fail it")]
+
 use glam::{DMat2, DVec2};
 use spline_lab::core::bspline::SplineSpace;
 use spline_lab::core::spline_curve::Nurbs;

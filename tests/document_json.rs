@@ -1,5 +1,7 @@
 //! Writing a document and reading it again changes no bit of it.
 
+#![allow(clippy::unwrap_used, reason = "the functions that prepare a test fail it")]
+
 use glam::DVec2;
 use proptest::prelude::*;
 use spline_lab::core::bspline::SplineSpace;

@@ -1,5 +1,7 @@
 //! Killing the program while it saves loses nothing: the file is always one of the documents, whole.
 
+#![allow(clippy::unwrap_used, reason = "the functions that prepare a test fail it")]
+
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};

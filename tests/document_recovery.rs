@@ -1,5 +1,7 @@
 //! Recovery files: found after a crash, and never two instances in one.
 
+#![allow(clippy::unwrap_used, reason = "the functions that prepare a test fail it")]
+
 use std::path::Path;
 
 use spline_lab::document::{Autosave, Document, View, first_scene};

@@ -1,9 +1,9 @@
 //! The window without a screen: what hands do, and that undo takes it back exactly.
 #![cfg(feature = "app")]
 
-use eframe::egui::{Key, Modifiers, Pos2, Vec2, vec2};
+use eframe::egui::{Event, Key, Modifiers, Pos2, Vec2, vec2};
 use egui_kittest::Harness;
-use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use egui_kittest::kittest::Queryable as _;
 use glam::DVec2;
 use spline_lab::app::LabApp;
 use spline_lab::document::Document;
@@ -99,10 +99,9 @@ fn shift_keeps_a_drag_on_one_axis() {
     harness.step();
     harness.drag_at(from);
     harness.step();
-    harness.input_mut().modifiers = Modifiers::SHIFT;
+    harness.event(Event::ModifiersChanged(Modifiers::SHIFT));
     harness.hover_at(from + vec2(50.0, 12.0));
     harness.step();
-    harness.input_mut().modifiers = Modifiers::SHIFT;
     harness.drop_at(from + vec2(50.0, 12.0));
     harness.step();
     let after = points(&harness);

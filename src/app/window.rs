@@ -8,6 +8,7 @@ use crate::app::command::Command;
 use crate::app::directories::Directories;
 use crate::app::files::Files;
 use crate::app::lab::{Lab, SidePage, Tone};
+use crate::app::painter::color32;
 use crate::app::palette::Palette;
 use crate::app::shortcut_sheet::ShortcutSheet;
 use crate::app::smoke_log::SmokeLog;
@@ -254,11 +255,14 @@ impl LabApp {
     fn say(&mut self, ctx: &egui::Context) {
         for message in self.lab.messages.drain(..) {
             let seconds = 4.0 + 0.06 * message.text.len() as f32;
-            let notice = match message.tone {
-                Tone::Done => self.notices.success(message.text),
-                Tone::Problem => self.notices.error(message.text),
+            let theme = &self.lab.theme;
+            let (sign, color) = match message.tone {
+                Tone::Done => ("•", theme.accent),
+                Tone::Problem => ("!", theme.error),
             };
-            notice.duration(std::time::Duration::from_secs_f32(seconds));
+            // The signs that the notices bring along are in none of our fonts.
+            let notice = self.notices.custom(message.text, sign.to_owned(), color32(color));
+            notice.closable(false).duration(std::time::Duration::from_secs_f32(seconds));
         }
         self.notices.show(ctx);
     }

@@ -1,4 +1,32 @@
 //! The mathematics of the course, one folder per chapter.
+//!
+//! | section | file |
+//! |---|---|
+//! | 2.1 Control polygon | `bezier/curve` |
+//! | 2.3 Algorithm of de Casteljau | `bezier/de_casteljau`, `bezier/degree` |
+//! | 3.3 Homogeneous points | `rational_bezier/homogeneous` |
+//! | 4.1 Recurrence relation | `bspline/basis` |
+//! | 4.2 Differentiation | `bspline/derivative`, `bspline/integral` |
+//! | 4.4 Splines | `bspline/space`, `bspline/builders`, `bspline/multiple_end_knots`, `bspline/uniform`, `bspline/piecewise` |
+//! | 4.5 Evaluation and differentiation | `bspline/spline`, `bspline/derivative`, `bspline/integral` |
+//! | 4.6 Periodic splines | `bspline/space`, `bspline/unroll` |
+//! | 6.1 Control polygon | `spline_curve/nurbs`, `spline_curve/editing`, `spline_curve/curvature` |
+//! | 6.3 Refinement | `spline_curve/knot_insertion`, `spline_curve/knot_removal` |
+//! | 6.4 Algorithms | `spline_curve/bezier_form` |
+//! | beyond | `spline_curve/degree`, `spline_curve/deviation`, `spline_curve/closest_point` |
+//!
+//! # Notation and conventions
+//!
+//! - Degree `n`, knots `ξ` (of curves also `τ`), control points and coefficients `c`, weights `w`. All indices start at 0.
+//! - `m` coefficients have the knots `ξ₀ … ξₘ₊ₙ`; `bₖ` lives on `[ξₖ, ξₖ₊ₙ₊₁]`, and the parameter interval is `D = [ξₙ, ξₘ]`.
+//! - Knots are *n-regular*: `n ≥ 1`, `m ≥ n + 1`, multiplicities at most `n`, first and last interval of D not empty.
+//! - Periodic knots: `M` of them in `[ξ₀, ξ₀ + T)`, and `M` coefficients; `cₖ` belongs to the B-spline that starts at `ξₖ`.
+//! - Knot intervals are half open, `[ξₗ, ξₗ₊₁)`; the last nonempty one of D includes its right end.
+//! - Points and weights of a rational curve are kept as given; algorithms run on `(w c, w)`.
+//! - y points up, angles are in radians, left turns have positive curvature.
+//! - Numbers are `f64`. Constructors check, name the index and repeat the value; nothing is sorted, clamped or repaired.
+//!
+//! K. Höllig, J. Hörner, *Approximation and Modeling with B-Splines*, SIAM 2013, has the sections.
 
 pub mod bezier;
 pub mod bspline;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::core::bspline::SplineError;
+use crate::document::edit_error::EditError;
 
 /// What is drawn of a curve, and how.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -10,7 +10,7 @@ use crate::core::bspline::SplineError;
 pub struct CurveDisplay {
     /// Index into the palette of object colours; a palette with `N` entries uses `color mod N`.
     pub color: usize,
-    /// Line width in pt, more than 0 and at most [`CurveDisplay::MAX_WIDTH`].
+    /// Line width in pt, from [`CurveDisplay::MIN_WIDTH`] to [`CurveDisplay::MAX_WIDTH`].
     pub width: f64,
     /// The control polygon.
     pub polygon: bool,
@@ -52,6 +52,8 @@ pub enum PointLabels {
 }
 
 impl CurveDisplay {
+    /// The thinnest line in pt: thinner ones cannot be seen.
+    pub const MIN_WIDTH: f64 = 0.01;
     /// The widest line in pt: wider ones hide what they show.
     pub const MAX_WIDTH: f64 = 100.0;
     /// The most teeth of a comb per knot interval.
@@ -61,23 +63,17 @@ impl CurveDisplay {
     ///
     /// # Errors
     ///
-    /// `NonFinite`; `NoSolution` for a width or a number of teeth that cannot be drawn. The name of the field is in the
-    /// message.
-    pub fn check(&self) -> Result<(), SplineError> {
-        for (what, value) in [("width", self.width), ("comb_scale", self.comb_scale)] {
-            if !value.is_finite() {
-                return Err(SplineError::NonFinite { what, index: 0, value });
+    /// `BadDisplay` with the name of the field, its value and the range.
+    pub fn check(&self) -> Result<(), EditError> {
+        let teeth = self.comb_teeth as f64;
+        for (field, value, range) in [
+            ("width", self.width, Self::MIN_WIDTH..=Self::MAX_WIDTH),
+            ("comb_scale", self.comb_scale, f64::MIN..=f64::MAX),
+            ("comb_teeth", teeth, 1.0..=Self::MAX_TEETH as f64),
+        ] {
+            if !range.contains(&value) {
+                return Err(EditError::BadDisplay { field, value, low: *range.start(), high: *range.end() });
             }
-        }
-        if self.width <= 0.0 || self.width > Self::MAX_WIDTH {
-            let reason =
-                format!("width is {}; it must be above 0 and at most {}", self.width, Self::MAX_WIDTH);
-            return Err(SplineError::NoSolution { reason });
-        }
-        if self.comb_teeth == 0 || self.comb_teeth > Self::MAX_TEETH {
-            let reason =
-                format!("comb_teeth is {}; it must be from 1 to {}", self.comb_teeth, Self::MAX_TEETH);
-            return Err(SplineError::NoSolution { reason });
         }
         Ok(())
     }

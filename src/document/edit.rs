@@ -1,9 +1,7 @@
 //! Every change of a document, as a value: for the Undo menu, for tests, for scripts.
 
 use glam::{DMat2, DVec2};
-use thiserror::Error;
 
-use crate::core::bspline::SplineError;
 use crate::core::spline_curve::Nurbs;
 use crate::document::display::CurveDisplay;
 use crate::document::object::ObjectId;
@@ -226,7 +224,7 @@ pub enum Edit {
         /// Name of the step.
         label: String,
         /// The edits, in their order.
-        edits: Vec<Edit>,
+        edits: Vec<Self>,
     },
 }
 
@@ -273,184 +271,10 @@ fn counted(verb: &str, count: usize, noun: &str) -> String {
 }
 
 /// A number with at most four digits after the point, or two significant ones if it is tiny or huge.
-fn short(value: f64) -> String {
+pub(in crate::document) fn short(value: f64) -> String {
     if value != 0.0 && !(1e-3..1e6).contains(&value.abs()) {
         return format!("{value:.1e}");
     }
     let rounded = (value * 1e4).round() / 1e4;
     format!("{}", if rounded == 0.0 { 0.0 } else { rounded })
-}
-
-/// What an edit did.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Outcome {
-    /// What happened to the shape of the curve.
-    pub shape: ShapeChange,
-    /// New objects.
-    pub created: Vec<ObjectId>,
-}
-
-/// What an edit did to the shape of a curve.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum ShapeChange {
-    /// There is nothing to say: no curve changed, or changing it was the purpose.
-    None,
-    /// The shape should be the same.
-    Kept {
-        /// A certified upper bound of the distance between old and new curve at equal parameters, in world units.
-        deviation: f64,
-    },
-    /// The shape is another one.
-    Changed {
-        /// An upper bound of the distance at equal parameters; `None` if the parameter intervals differ or there are too many
-        /// points to measure while one drags.
-        deviation: Option<f64>,
-        /// A parameter where the distance is largest among those sampled.
-        at: Option<f64>,
-    },
-}
-
-impl ShapeChange {
-    /// One sentence for the status line; `None` if there is nothing to say.
-    pub fn sentence(&self) -> Option<String> {
-        match *self {
-            Self::None => None,
-            Self::Kept { deviation: 0.0 } => Some("The shape is kept exactly.".to_owned()),
-            Self::Kept { deviation } => {
-                Some(format!("The shape is kept (deviation at most {deviation:.1e})."))
-            }
-            Self::Changed { deviation: Some(deviation), at: Some(at) } => Some(format!(
-                "The shape changes by at most {}, most near t = {}.",
-                short(deviation),
-                short(at)
-            )),
-            Self::Changed { deviation: Some(deviation), at: None } => {
-                Some(format!("The shape changes by at most {}.", short(deviation)))
-            }
-            Self::Changed { deviation: None, .. } => Some("The shape changes.".to_owned()),
-        }
-    }
-}
-
-/// Why an edit cannot be done. The document is then unchanged.
-#[derive(Clone, Debug, PartialEq, Error)]
-pub enum EditError {
-    /// No object has this number.
-    #[error("there is no object {object}")]
-    NoSuchObject {
-        /// The number.
-        object: ObjectId,
-    },
-    /// A curve has no point with this index.
-    #[error("object {object} has no point {index}; its {count} points are numbered from 0")]
-    NoSuchPoint {
-        /// The curve.
-        object: ObjectId,
-        /// The index.
-        index: usize,
-        /// Number of points.
-        count: usize,
-    },
-    /// A curve has no knot with this index.
-    #[error("object {object} has no knot {index}; its {count} knots are numbered from 0")]
-    NoSuchKnot {
-        /// The curve.
-        object: ObjectId,
-        /// The index.
-        index: usize,
-        /// Number of knots.
-        count: usize,
-    },
-    /// A value is not among the knots of a curve.
-    #[error("{at} is not a knot of object {object}")]
-    NotAKnot {
-        /// The curve.
-        object: ObjectId,
-        /// The value.
-        at: f64,
-    },
-    /// A knot would pass a neighbour.
-    #[error("knot {knot} cannot move to {wanted}; it must stay between {low} and {high}")]
-    KnotBlocked {
-        /// Index of the knot, of the first copy if several move.
-        knot: usize,
-        /// Where it should go.
-        wanted: f64,
-        /// The smaller limit.
-        low: f64,
-        /// The larger limit.
-        high: f64,
-    },
-    /// The degree lies outside the window's range.
-    #[error("degree {degree} lies outside 1 to {MAX_EDIT_DEGREE}")]
-    DegreeOutsideWindow {
-        /// The degree.
-        degree: usize,
-    },
-    /// A position in the drawing order does not exist.
-    #[error("position {to} does not exist; the document has {count} objects")]
-    NoSuchPosition {
-        /// The position.
-        to: usize,
-        /// Number of objects.
-        count: usize,
-    },
-    /// A coordinate is infinite or not a number.
-    #[error("{what} is {value}, not a finite number")]
-    NonFinite {
-        /// What it belongs to.
-        what: &'static str,
-        /// The value.
-        value: f64,
-    },
-    /// There are too many objects or points.
-    #[error("{what}: {value} is above the limit {limit}")]
-    TooMany {
-        /// What is counted.
-        what: &'static str,
-        /// The number.
-        value: usize,
-        /// The largest possible number.
-        limit: usize,
-    },
-    /// The name of an object is unsuitable.
-    #[error("the name {name:?} {reason}")]
-    BadName {
-        /// The name.
-        name: String,
-        /// Why not.
-        reason: &'static str,
-    },
-    /// An edit of a batch failed.
-    #[error("step {index} of the batch: {source}")]
-    InBatch {
-        /// Index of the edit.
-        index: usize,
-        /// What is wrong with it.
-        #[source]
-        source: Box<EditError>,
-    },
-    /// Points, weights or knots do not make a curve.
-    #[error(transparent)]
-    Spline(#[from] SplineError),
-}
-
-impl EditError {
-    /// The name of the error, of the spline error's if that is the cause.
-    pub fn name(&self) -> &'static str {
-        match self {
-            Self::NoSuchObject { .. } => "NoSuchObject",
-            Self::NoSuchPoint { .. } => "NoSuchPoint",
-            Self::NoSuchKnot { .. } => "NoSuchKnot",
-            Self::NotAKnot { .. } => "NotAKnot",
-            Self::KnotBlocked { .. } => "KnotBlocked",
-            Self::DegreeOutsideWindow { .. } => "DegreeOutsideWindow",
-            Self::NoSuchPosition { .. } => "NoSuchPosition",
-            Self::NonFinite { .. } => "NonFinite",
-            Self::TooMany { .. } => "TooMany",
-            Self::BadName { .. } => "BadName",
-            Self::InBatch { source, .. } => source.name(),
-            Self::Spline(error) => error.name(),
-        }
-    }
 }

@@ -6,7 +6,9 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use crate::document::contents::Document;
-use crate::document::edit::{Edit, EditError, Outcome};
+use crate::document::edit::Edit;
+use crate::document::edit_error::EditError;
+use crate::document::outcome::Outcome;
 
 /// Memory for snapshots if nothing else is said: 256 MiB.
 pub const DEFAULT_BUDGET: usize = 256 << 20;

@@ -11,9 +11,9 @@ pub(in crate::document) enum Node {
     /// A value as `serde_json` writes it: numbers in the shortest form that reads back as the same number.
     Leaf(Value),
     /// `[…]`
-    List(Vec<Node>),
+    List(Vec<Self>),
     /// `{…}`
-    Record(Vec<(String, Node)>),
+    Record(Vec<(String, Self)>),
 }
 
 impl Node {

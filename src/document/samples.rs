@@ -9,7 +9,8 @@ use crate::core::bspline::{SplineError, SplineSpace};
 use crate::core::spline_curve::Nurbs;
 use crate::document::contents::Document;
 use crate::document::display::{CurveDisplay, PointLabels};
-use crate::document::edit::{Edit, EditError};
+use crate::document::edit::Edit;
+use crate::document::edit_error::EditError;
 use crate::document::object::ObjectId;
 use crate::document::view::{Camera, View};
 

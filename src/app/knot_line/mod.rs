@@ -216,7 +216,6 @@ mod tests {
     }
 
     #[test]
-    #[ignore = "the document cannot insert knots yet"]
     fn a_double_click_on_the_axis_inserts_a_knot() {
         let mut window = test_bench::window(test_bench::lab(), SIZE, show);
         let one = window.get_by_label("Knot 1").rect().center();

@@ -203,7 +203,7 @@ impl SplineSpace {
             }
             match distinct.last_mut() {
                 Some(last) if last.value.to_bits() == value.to_bits() || last.value >= value => {
-                    last.multiplicity += 1
+                    last.multiplicity += 1;
                 }
                 _ => distinct.push(DistinctKnot { value, multiplicity: 1, first: index }),
             }

@@ -3,6 +3,7 @@
 //! | file | what |
 //! |---|---|
 //! | `nurbs` | 6.1 the rational curve |
+//! | `editing` | replaced points and weights, reversed, split, opened and closed curves, the circle |
 //! | `knot_insertion` | 6.3 one knot, many knots, uniform refinement |
 //! | `knot_removal` | the nearest curve with one knot less |
 //! | `bezier_form` | 6.4 one Bezier curve for each knot interval |
@@ -16,6 +17,7 @@ mod closest_point;
 mod curvature;
 mod degree;
 mod deviation;
+mod editing;
 mod knot_insertion;
 mod knot_removal;
 mod nurbs;

@@ -9,8 +9,9 @@ use crate::core::spline_curve::Nurbs;
 use crate::document::apply::knots::changed;
 use crate::document::apply::parametrization::{appended_knots, uniform_open, with_knots};
 use crate::document::contents::Document;
-use crate::document::edit::{EditError, Outcome, ShapeChange};
+use crate::document::edit_error::EditError;
 use crate::document::object::ObjectId;
+use crate::document::outcome::{Outcome, ShapeChange};
 
 pub(super) fn move_points(
     document: &mut Document,

@@ -6,8 +6,10 @@ use crate::document::apply::check_point_count;
 use crate::document::apply::knots::{changed, kept};
 use crate::document::apply::parametrization::{uniform_open, uniform_periodic};
 use crate::document::contents::Document;
-use crate::document::edit::{EditError, MAX_EDIT_DEGREE, Outcome, ShapeChange};
+use crate::document::edit::MAX_EDIT_DEGREE;
+use crate::document::edit_error::EditError;
 use crate::document::object::ObjectId;
+use crate::document::outcome::{Outcome, ShapeChange};
 
 pub(super) fn elevate(document: &mut Document, object: ObjectId) -> Result<Outcome, EditError> {
     document.change_curve(object, |curve| {

@@ -2,12 +2,14 @@
 
 use glam::DVec2;
 
+use crate::core::bspline::SplineSpace;
 use crate::core::spline_curve::{Nurbs, deviation};
 use crate::document::apply::check_point_count;
 use crate::document::apply::parametrization::with_knots;
 use crate::document::contents::Document;
-use crate::document::edit::{EditError, Outcome, ShapeChange};
+use crate::document::edit_error::EditError;
 use crate::document::object::ObjectId;
+use crate::document::outcome::{Outcome, ShapeChange};
 
 /// Curves with more points are not measured when their shape changes: the measurement would halt a drag.
 const MOST_MEASURED_POINTS: usize = 2000;
@@ -98,27 +100,22 @@ pub(super) fn move_distinct(
     })
 }
 
-/// All knots are new. In the (n+1)-fold convention the outermost knot repeats an end of D once more; as no value depends on
-/// it, it goes one interval length outside.
+/// All knots are new, in the n-fold or in the (n+1)-fold convention.
 pub(super) fn set(document: &mut Document, object: ObjectId, knots: &[f64]) -> Result<Outcome, EditError> {
     document.change_curve(object, |curve| {
-        let mut knots = knots.to_vec();
-        let (n, count) = (curve.degree(), curve.points().len());
-        if !curve.space().is_periodic() && knots.len() == count + n + 1 {
-            let last = knots.len() - 1;
-            if knots[..=n].iter().all(|&knot| knot == knots[0]) {
-                knots[0] -= knots[n + 1] - knots[n];
-            }
-            if knots[count..].iter().all(|&knot| knot == knots[last]) {
-                knots[last] += knots[count] - knots[count - 1];
-            }
+        if curve.space().is_periodic() {
+            return replace_knots(curve, knots.to_vec());
         }
-        replace_knots(curve, knots)
+        let space = SplineSpace::from_either_convention(curve.degree(), knots.to_vec())?;
+        replace_space(curve, space)
     })
 }
 
 fn replace_knots(curve: &Nurbs<DVec2>, knots: Vec<f64>) -> Result<(Nurbs<DVec2>, ShapeChange), EditError> {
-    let space = with_knots(curve.space(), knots)?;
+    replace_space(curve, with_knots(curve.space(), knots)?)
+}
+
+fn replace_space(curve: &Nurbs<DVec2>, space: SplineSpace) -> Result<(Nurbs<DVec2>, ShapeChange), EditError> {
     let new = Nurbs::new(space, curve.points().to_vec(), curve.weights().to_vec())?;
     let shape = changed(curve, &new);
     Ok((new, shape))

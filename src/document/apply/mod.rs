@@ -14,8 +14,10 @@ use glam::DVec2;
 
 use crate::core::spline_curve::Nurbs;
 use crate::document::contents::Document;
-use crate::document::edit::{Edit, EditError, Outcome, ShapeChange};
+use crate::document::edit::Edit;
+use crate::document::edit_error::EditError;
 use crate::document::object::{Content, Object, ObjectId};
+use crate::document::outcome::{Outcome, ShapeChange};
 
 /// The largest number of control points of one curve that edits and files may make.
 pub(in crate::document) const MAX_POINTS: usize = 100_000;
@@ -96,7 +98,7 @@ impl Document {
             Edit::SetClosed { object, closed: true } => parametrization::close(self, *object),
             Edit::SetClosed { object, closed: false } => parametrization::open(self, *object),
             Edit::Reverse { object } => {
-                self.change_curve(*object, |curve| Ok((parametrization::reversed(curve)?, ShapeChange::None)))
+                self.change_curve(*object, |curve| Ok((curve.reversed()?, ShapeChange::None)))
             }
             Edit::ReplaceCurve { object, curve, .. } => {
                 check_point_count(curve.points().len())?;

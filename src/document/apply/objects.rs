@@ -8,8 +8,9 @@ use crate::core::spline_curve::Nurbs;
 use crate::document::apply::{MAX_ID, MAX_OBJECTS, check_point_count};
 use crate::document::contents::Document;
 use crate::document::display::CurveDisplay;
-use crate::document::edit::{EditError, Outcome, ShapeChange};
+use crate::document::edit_error::EditError;
 use crate::document::object::{Content, Object, ObjectId};
+use crate::document::outcome::{Outcome, ShapeChange};
 
 /// The longest name in bytes: more does not fit into any list.
 pub(in crate::document) const MAX_NAME: usize = 1000;

@@ -1,13 +1,12 @@
-//! Edits of the parameter: open and closed, direction, and the knots that edits choose themselves.
-
-use glam::DVec2;
+//! Edits of the parameter: open and closed, and the knots that edits choose themselves.
 
 use crate::core::bspline::SplineSpace;
 use crate::core::spline_curve::Nurbs;
 use crate::document::apply::knots::{changed, kept};
 use crate::document::contents::Document;
-use crate::document::edit::{EditError, Outcome, ShapeChange};
+use crate::document::edit_error::EditError;
 use crate::document::object::ObjectId;
+use crate::document::outcome::{Outcome, ShapeChange};
 
 pub(super) fn close(document: &mut Document, object: ObjectId) -> Result<Outcome, EditError> {
     document.change_curve(object, |curve| {
@@ -27,43 +26,8 @@ pub(super) fn open(document: &mut Document, object: ObjectId) -> Result<Outcome,
         if !curve.space().is_periodic() {
             return Ok((curve.clone(), ShapeChange::None));
         }
-        kept(curve, cut(curve)?)
+        kept(curve, curve.opened()?)
     })
-}
-
-/// The closed curve cut at `ξ₀`: with `ξ₀` n-fold, the unrolled knots of one period interpolate both ends.
-fn cut(curve: &Nurbs<DVec2>) -> Result<Nurbs<DVec2>, EditError> {
-    let n = curve.degree();
-    let start = curve.space().knots()[0];
-    let copies = vec![start; n - curve.space().multiplicity(start)];
-    let curve = curve.insert_knots(&copies)?;
-    let space = curve.space();
-    let indices = || (0..space.evaluation_dimension()).map(|k| space.coefficient_index(k));
-    let points = indices().map(|k| curve.points()[k]).collect();
-    let weights = indices().map(|k| curve.weights()[k]).collect();
-    Ok(Nurbs::new(SplineSpace::new(n, space.evaluation_knots().to_vec())?, points, weights)?)
-}
-
-/// The same curve run through the other way over the same interval: `x ↦ ξₙ + ξₘ − x`, or `x ↦ 2ξ₀ − x` if closed.
-pub(super) fn reversed(curve: &Nurbs<DVec2>) -> Result<Nurbs<DVec2>, EditError> {
-    let space = curve.space();
-    let (n, count) = (space.degree(), space.dimension());
-    let Some(period) = space.period() else {
-        let (left, right) = space.parameter_interval();
-        let knots = space.knots().iter().rev().map(|knot| left + (right - knot)).collect();
-        let points = curve.points().iter().rev().copied().collect();
-        let weights = curve.weights().iter().rev().copied().collect();
-        return Ok(Nurbs::new(SplineSpace::new(n, knots)?, points, weights)?);
-    };
-    // The new knots are η_j = 2ξ₀ − ξ_{μ−1−j}, and η_j begins the support of the old point μ−1−j−n−1.
-    let start = space.knots()[0];
-    let copies = space.multiplicity(start) as isize;
-    let at = |k: isize| space.knot(k).unwrap_or(f64::NAN);
-    let knots = (0..count as isize).map(|j| start + (start - at(copies - 1 - j))).collect();
-    let old = |j: usize| (copies - 2 - n as isize - j as isize).rem_euclid(count as isize) as usize;
-    let points = (0..count).map(|j| curve.points()[old(j)]).collect();
-    let weights = (0..count).map(|j| curve.weights()[old(j)]).collect();
-    Ok(Nurbs::new(SplineSpace::periodic(n, period, knots)?, points, weights)?)
 }
 
 /// The space of the same kind and degree over other knots.

@@ -1,0 +1,143 @@
+//! Why edits fail.
+
+use thiserror::Error;
+
+use crate::core::bspline::SplineError;
+use crate::document::edit::{MAX_EDIT_DEGREE, short};
+use crate::document::object::ObjectId;
+
+/// Why an edit cannot be done. The document is then unchanged.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum EditError {
+    /// No object has this number.
+    #[error("there is no object {object}")]
+    NoSuchObject {
+        /// The number.
+        object: ObjectId,
+    },
+    /// A curve has no point with this index.
+    #[error("object {object} has no point {index}; its {count} points are numbered from 0")]
+    NoSuchPoint {
+        /// The curve.
+        object: ObjectId,
+        /// The index.
+        index: usize,
+        /// Number of points.
+        count: usize,
+    },
+    /// A curve has no knot with this index.
+    #[error("object {object} has no knot {index}; its {count} knots are numbered from 0")]
+    NoSuchKnot {
+        /// The curve.
+        object: ObjectId,
+        /// The index.
+        index: usize,
+        /// Number of knots.
+        count: usize,
+    },
+    /// A value is not among the knots of a curve.
+    #[error("{at} is not a knot of object {object}")]
+    NotAKnot {
+        /// The curve.
+        object: ObjectId,
+        /// The value.
+        at: f64,
+    },
+    /// A knot would pass a neighbour.
+    #[error("knot {knot} cannot move to {wanted}; it must stay between {low} and {high}")]
+    KnotBlocked {
+        /// Index of the knot, of the first copy if several move.
+        knot: usize,
+        /// Where it should go.
+        wanted: f64,
+        /// The smaller limit.
+        low: f64,
+        /// The larger limit.
+        high: f64,
+    },
+    /// The degree lies outside the window's range.
+    #[error("degree {degree} lies outside 1 to {MAX_EDIT_DEGREE}")]
+    DegreeOutsideWindow {
+        /// The degree.
+        degree: usize,
+    },
+    /// A position in the drawing order does not exist.
+    #[error("position {to} does not exist; the document has {count} objects")]
+    NoSuchPosition {
+        /// The position.
+        to: usize,
+        /// Number of objects.
+        count: usize,
+    },
+    /// A coordinate is infinite or not a number.
+    #[error("{what} is {value}, not a finite number")]
+    NonFinite {
+        /// What it belongs to.
+        what: &'static str,
+        /// The value.
+        value: f64,
+    },
+    /// There are too many objects or points.
+    #[error("{what}: {value} is above the limit {limit}")]
+    TooMany {
+        /// What is counted.
+        what: &'static str,
+        /// The number.
+        value: usize,
+        /// The largest possible number.
+        limit: usize,
+    },
+    /// A number of a display cannot be drawn.
+    #[error("{field} is {value}; it must be from {} to {}", short(*.low), short(*.high))]
+    BadDisplay {
+        /// Its name.
+        field: &'static str,
+        /// Its value.
+        value: f64,
+        /// The smallest possible value.
+        low: f64,
+        /// The largest possible value.
+        high: f64,
+    },
+    /// The name of an object is unsuitable.
+    #[error("the name {name:?} {reason}")]
+    BadName {
+        /// The name.
+        name: String,
+        /// Why not.
+        reason: &'static str,
+    },
+    /// An edit of a batch failed.
+    #[error("step {index} of the batch: {source}")]
+    InBatch {
+        /// Index of the edit.
+        index: usize,
+        /// What is wrong with it.
+        #[source]
+        source: Box<Self>,
+    },
+    /// Points, weights or knots do not make a curve.
+    #[error(transparent)]
+    Spline(#[from] SplineError),
+}
+
+impl EditError {
+    /// The name of the error, of the spline error's if that is the cause.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::NoSuchObject { .. } => "NoSuchObject",
+            Self::NoSuchPoint { .. } => "NoSuchPoint",
+            Self::NoSuchKnot { .. } => "NoSuchKnot",
+            Self::NotAKnot { .. } => "NotAKnot",
+            Self::KnotBlocked { .. } => "KnotBlocked",
+            Self::DegreeOutsideWindow { .. } => "DegreeOutsideWindow",
+            Self::NoSuchPosition { .. } => "NoSuchPosition",
+            Self::NonFinite { .. } => "NonFinite",
+            Self::TooMany { .. } => "TooMany",
+            Self::BadDisplay { .. } => "BadDisplay",
+            Self::BadName { .. } => "BadName",
+            Self::InBatch { source, .. } => source.name(),
+            Self::Spline(error) => error.name(),
+        }
+    }
+}
