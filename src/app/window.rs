@@ -77,7 +77,10 @@ impl LabApp {
             files,
             palette: Palette::default(),
             shortcut_sheet: ShortcutSheet::default(),
-            notices: egui_notify::Toasts::default().with_anchor(egui_notify::Anchor::BottomRight),
+            notices: egui_notify::Toasts::default()
+                .with_anchor(egui_notify::Anchor::BottomRight)
+                // Above the status line.
+                .with_margin(egui::vec2(12.0, 40.0)),
             smoke_log: SmokeLog::from_environment(),
             styled: None,
         }
@@ -262,7 +265,10 @@ impl LabApp {
             };
             // The signs that the notices bring along are in none of our fonts.
             let notice = self.notices.custom(message.text, sign.to_owned(), color32(color));
-            notice.closable(false).duration(std::time::Duration::from_secs_f32(seconds));
+            notice
+                .closable(false)
+                .show_progress_bar(false)
+                .duration(std::time::Duration::from_secs_f32(seconds));
         }
         self.notices.show(ctx);
     }
