@@ -60,7 +60,7 @@ pub(crate) struct FileDialog {
 #[derive(Debug)]
 enum Asked {
     Desktop { answer: Receiver<Option<PathBuf>>, since: Instant },
-    Ours(PathDialog),
+    Ours(Box<PathDialog>),
 }
 
 impl FileDialog {
@@ -68,7 +68,7 @@ impl FileDialog {
     pub(crate) fn ask(request: Request, desktop: bool) -> Self {
         let asked = match desktop.then(|| ask_desktop(&request)).flatten() {
             Some(answer) => Asked::Desktop { answer, since: Instant::now() },
-            None => Asked::Ours(PathDialog::new(request.clone())),
+            None => Asked::Ours(Box::new(PathDialog::new(request.clone()))),
         };
         Self { request, asked }
     }
@@ -89,7 +89,7 @@ impl FileDialog {
                 match path {
                     Some(path) => Some(Answer::Path(with_extension(path, &self.request))),
                     None if since.elapsed() < NOBODY_SAW_IT => {
-                        self.asked = Asked::Ours(PathDialog::new(self.request.clone()));
+                        self.asked = Asked::Ours(Box::new(PathDialog::new(self.request.clone())));
                         ui.ctx().request_repaint();
                         None
                     }

@@ -212,16 +212,14 @@ impl LabApp {
         }
         match command {
             Command::Undo => {
-                if lab.history.undo().is_some() {
-                    lab.shape_note = None;
-                    lab.tidy_selection();
-                }
+                lab.history.undo();
+                lab.shape_note = None;
+                lab.tidy_selection();
             }
             Command::Redo => {
-                if lab.history.redo().is_some() {
-                    lab.shape_note = None;
-                    lab.tidy_selection();
-                }
+                lab.history.redo();
+                lab.shape_note = None;
+                lab.tidy_selection();
             }
             Command::ToggleLeftPanel => toggle(lab, LEFT_PANEL),
             Command::ToggleRightPanel => toggle(lab, RIGHT_PANEL),

@@ -271,7 +271,7 @@ impl Files {
             }
             // What was to be brought back keeps waiting when the question before it is cancelled.
             (Reply::Cancel, Some(Question::Unsaved(Then::BringBack(recovered)))) => {
-                self.recovered.push(*recovered)
+                self.recovered.push(*recovered);
             }
             _ => {}
         }
