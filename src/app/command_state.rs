@@ -1,5 +1,7 @@
 //! Whether a command can be carried out now, and whether what it switches is on. Menu and palette show both.
 
+use eframe::egui::Context;
+
 use crate::app::command::Command;
 use crate::app::lab::{Lab, Tool};
 use crate::app::{KNOT_LINE, LEFT_PANEL, RIGHT_PANEL};
@@ -8,6 +10,23 @@ use crate::figure::composition::GRID;
 
 /// Largest degree of a curve in the window.
 const HIGHEST_DEGREE: usize = 12;
+
+/// The key of `command` for people: `Ctrl+Shift+S`, `]`.
+pub(crate) fn key_text(command: Command, ctx: &Context) -> Option<String> {
+    let text = ctx.format_shortcut(&command.shortcut()?);
+    let (before, key) = match text.rfind('+') {
+        Some(plus) => text.split_at(plus + 1),
+        None => ("", text.as_str()),
+    };
+    let sign = match key {
+        "OpenBracket" => "[",
+        "CloseBracket" => "]",
+        "PageUp" => "Page up",
+        "PageDown" => "Page down",
+        other => other,
+    };
+    Some(format!("{before}{sign}"))
+}
 
 /// Whether `command` has something to work on.
 pub(crate) fn is_possible(command: Command, lab: &Lab) -> bool {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use eframe::egui::{self, Button, MenuBar, RichText, Ui};
 
 use crate::app::command::{Command, Menu};
-use crate::app::command_state::{is_on, is_possible};
+use crate::app::command_state::{is_on, is_possible, key_text};
 use crate::app::files::{self, Files};
 use crate::app::lab::Lab;
 
@@ -62,8 +62,8 @@ fn entry(command: Command, lab: &mut Lab, ui: &mut Ui) {
     };
     let on = is_on(command, lab);
     let mut button = Button::selectable(on == Some(true), text.as_str());
-    if let Some(shortcut) = command.shortcut() {
-        button = button.shortcut_text(ui.ctx().format_shortcut(&shortcut));
+    if let Some(key) = key_text(command, ui.ctx()) {
+        button = button.shortcut_text(key);
     }
     let possible = is_possible(command, lab);
     let response = ui.add_enabled(possible, button).on_hover_text(hint);

@@ -1,7 +1,7 @@
 //! The window.
 //!
-//! [`lab::Lab`] is the state that everybody shares; a [`workspace::Workspace`] fills the middle; panels stand around it;
-//! [`command::Command`] is everything that can be commanded, [`files`] opens, saves and keeps safe.
+//! [`lab::Lab`] is the state that everybody shares; a `Workspace` fills the middle; panels stand around it;
+//! [`command::Command`] is everything that can be commanded, `files` opens, saves and keeps safe.
 
 pub mod command;
 pub mod directories;
@@ -10,6 +10,7 @@ pub mod sheet;
 
 mod command_state;
 mod curves;
+mod dialog;
 mod file_dialog;
 mod files;
 mod formula_view;

@@ -5,7 +5,7 @@ use eframe::egui::{
 };
 
 use crate::app::command::Command;
-use crate::app::command_state::is_possible;
+use crate::app::command_state::{is_possible, key_text};
 use crate::app::lab::Lab;
 
 /// The palette; shut at first.
@@ -87,8 +87,8 @@ impl Palette {
                 for (place, &command) in found.iter().enumerate() {
                     let (text, hint) = command.text();
                     let mut button = Button::selectable(place == self.chosen, text);
-                    if let Some(shortcut) = command.shortcut() {
-                        button = button.shortcut_text(ui.ctx().format_shortcut(&shortcut));
+                    if let Some(key) = key_text(command, ui.ctx()) {
+                        button = button.shortcut_text(key);
                     }
                     let line = ui.add(button).on_hover_text(hint);
                     line.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, text));

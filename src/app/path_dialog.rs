@@ -5,10 +5,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use eframe::egui::text::CCursorRange;
-use eframe::egui::{
-    self, Align, Button, Id, Key, Layout, Modal, Modifiers, RichText, ScrollArea, TextEdit, Ui,
-};
+use eframe::egui::{self, Align, Button, Id, Key, Layout, Modifiers, RichText, ScrollArea, TextEdit, Ui};
 
+use crate::app::dialog;
 use crate::app::file_dialog::{Answer, Purpose, Request, with_extension};
 
 /// Entries that are listed at most; more are counted.
@@ -71,8 +70,7 @@ impl PathDialog {
         if ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Enter)) {
             action = Some(Action::Accept);
         }
-        Modal::new(Id::unique("path dialog")).show(ui.ctx(), |ui| {
-            ui.set_width(520.0_f32.min(ui.ctx().content_rect().width() - 60.0));
+        dialog::show("path dialog", 520.0, ui, |ui| {
             ui.heading(self.request.title);
             ui.add_space(4.0);
             self.folder_line(ui, &mut action);
@@ -82,7 +80,7 @@ impl PathDialog {
             if let Some(complaint) = &self.complaint {
                 ui.label(RichText::new(complaint).color(ui.visuals().error_fg_color));
             }
-            ui.add_space(6.0);
+            ui.add_space(10.0);
             self.buttons(ui, &mut action);
         });
         self.fresh = false;
@@ -191,7 +189,8 @@ impl PathDialog {
                 (Purpose::Save, None) => "Save",
                 (Purpose::Save, Some(_)) => "Replace",
             };
-            if ui.add_enabled(!self.typed.trim().is_empty(), Button::new(word)).clicked() {
+            let button = dialog::main_button(word, ui);
+            if ui.add_enabled(!self.typed.trim().is_empty(), button).clicked() {
                 *action = Some(Action::Accept);
             }
             if ui.button("Cancel").clicked() {

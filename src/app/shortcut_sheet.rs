@@ -3,6 +3,7 @@
 use eframe::egui::{self, Grid, Key, Modifiers, RichText, ScrollArea, Ui, Window};
 
 use crate::app::command::{Command, Menu};
+use crate::app::command_state::key_text;
 use crate::app::lab::Lab;
 
 /// What the mouse and the arrow keys do.
@@ -22,6 +23,12 @@ const HANDS: [(&str, &str); 14] = [
     ("Ctrl + Y", "Redo"),
     ("Drop a file on the window", "Open it"),
 ];
+
+/// Width with two columns, in logical pixels.
+const WIDE: f32 = 760.0;
+
+/// Width with one column.
+const NARROW: f32 = 380.0;
 
 /// The sheet; shut at first.
 #[derive(Debug, Default)]
@@ -45,25 +52,25 @@ impl ShortcutSheet {
             return;
         }
         let room = ui.ctx().content_rect().size();
+        let wide = room.x > WIDE + 100.0;
         Window::new("Shortcuts")
             .open(&mut self.open)
             .collapsible(false)
             .resizable(false)
+            .frame(egui::Frame::window(&ui.ctx().global_style()).inner_margin(12.0))
+            .default_size([if wide { WIDE } else { NARROW }, room.y - 60.0])
             .pivot(egui::Align2::CENTER_CENTER)
             .default_pos(ui.ctx().content_rect().center())
             .show(ui.ctx(), |ui| {
-                let wide = room.x > 860.0;
-                ui.set_width(if wide { 760.0 } else { 380.0_f32.min(room.x - 60.0) });
-                ScrollArea::vertical().max_height(room.y - 120.0).show(ui, |ui| {
+                ui.set_width(if wide { WIDE } else { NARROW.min(room.x - 60.0) });
+                ScrollArea::vertical().max_height(room.y - 110.0).show(ui, |ui| {
                     if wide {
                         ui.columns(2, |columns| {
-                            for menu in [Menu::File, Menu::Edit, Menu::Curve] {
+                            for menu in [Menu::File, Menu::Edit, Menu::Curve, Menu::Lesson, Menu::Help] {
                                 keys(menu, &mut columns[0]);
                             }
-                            hands(&mut columns[0]);
-                            for menu in [Menu::View, Menu::Lesson, Menu::Help] {
-                                keys(menu, &mut columns[1]);
-                            }
+                            keys(Menu::View, &mut columns[1]);
+                            hands(&mut columns[1]);
                         });
                     } else {
                         Menu::ALL.into_iter().for_each(|menu| keys(menu, ui));
@@ -76,8 +83,8 @@ impl ShortcutSheet {
 
 fn keys(menu: Menu, ui: &mut Ui) {
     let lines = Command::ALL.into_iter().filter(|command| command.menu() == menu).filter_map(|command| {
-        let shortcut = command.shortcut()?;
-        Some((ui.ctx().format_shortcut(&shortcut), command.text().0.trim_end_matches('…').to_owned()))
+        let key = key_text(command, ui.ctx())?;
+        Some((key, command.text().0.trim_end_matches('…').to_owned()))
     });
     let lines: Vec<(String, String)> = lines.collect();
     section(menu.title(), &lines, ui);
@@ -96,13 +103,16 @@ fn section(title: &str, lines: &[(String, String)], ui: &mut Ui) {
     ui.add_space(6.0);
     ui.label(RichText::new(title).heading());
     ui.add_space(2.0);
-    Grid::new(title).num_columns(2).spacing([14.0, 3.0]).min_col_width(96.0).show(ui, |ui| {
-        for (key, does) in lines {
-            ui.label(RichText::new(key).weak());
-            ui.add(egui::Label::new(does).wrap());
-            ui.end_row();
-        }
-    });
+    Grid::new(title).num_columns(2).spacing([14.0, 3.0]).min_col_width(96.0).min_row_height(16.0).show(
+        ui,
+        |ui| {
+            for (key, does) in lines {
+                ui.label(RichText::new(key).weak());
+                ui.add(egui::Label::new(does).wrap());
+                ui.end_row();
+            }
+        },
+    );
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ use crate::app::command::Command;
 use crate::app::directories::Directories;
 use crate::app::files::Files;
 use crate::app::lab::{Lab, SidePage, Tone};
+use crate::app::painter::color32;
 use crate::app::palette::Palette;
 use crate::app::shortcut_sheet::ShortcutSheet;
 use crate::app::smoke_log::SmokeLog;
@@ -76,7 +77,10 @@ impl LabApp {
             files,
             palette: Palette::default(),
             shortcut_sheet: ShortcutSheet::default(),
-            notices: egui_notify::Toasts::default().with_anchor(egui_notify::Anchor::BottomRight),
+            notices: egui_notify::Toasts::default()
+                .with_anchor(egui_notify::Anchor::BottomRight)
+                // Above the status line.
+                .with_margin(egui::vec2(12.0, 40.0)),
             smoke_log: SmokeLog::from_environment(),
             styled: None,
         }
@@ -256,11 +260,17 @@ impl LabApp {
     fn say(&mut self, ctx: &egui::Context) {
         for message in self.lab.messages.drain(..) {
             let seconds = 4.0 + 0.06 * message.text.len() as f32;
-            let notice = match message.tone {
-                Tone::Done => self.notices.success(message.text),
-                Tone::Problem => self.notices.error(message.text),
+            let theme = &self.lab.theme;
+            let (sign, color) = match message.tone {
+                Tone::Done => ("•", theme.accent),
+                Tone::Problem => ("!", theme.error),
             };
-            notice.duration(std::time::Duration::from_secs_f32(seconds));
+            // The signs that the notices bring along are in none of our fonts.
+            let notice = self.notices.custom(message.text, sign.to_owned(), color32(color));
+            notice
+                .closable(false)
+                .show_progress_bar(false)
+                .duration(std::time::Duration::from_secs_f32(seconds));
         }
         self.notices.show(ctx);
     }

@@ -367,10 +367,8 @@ fn hover(lab: &mut Lab, target: Target) {
 
 /// Arrow keys move the selected points by a tenth of the grid, Shift ten times, Ctrl a tenth of that.
 fn nudge(lab: &mut Lab, viewport: &Viewport, ui: &Ui) {
-    if ui.text_edit_focused()
-        || lab.selection.points.is_empty()
-        || ui.memory(|memory| memory.focused().is_some())
-    {
+    let keys_are_taken = ui.memory(|memory| memory.focused().is_some() || memory.top_modal_layer().is_some());
+    if keys_are_taken || lab.selection.points.is_empty() {
         return;
     }
     let Some(object) = lab.selection.object else { return };

@@ -3,10 +3,9 @@
 use std::path::PathBuf;
 use std::time::SystemTime;
 
-use eframe::egui::{
-    self, Align, Align2, Button, Id, Key, Layout, Modal, Modifiers, RichText, ScrollArea, Ui,
-};
+use eframe::egui::{self, Align, Align2, Button, Id, Key, Layout, Modifiers, RichText, ScrollArea, Ui};
 
+use crate::app::dialog;
 use crate::app::files::{Then, name_of};
 use crate::app::lab::Lab;
 use crate::document::Recovered;
@@ -58,8 +57,7 @@ fn ask_to_save(lab: &Lab, ui: &mut Ui) -> Option<Reply> {
     } else if take(Key::Enter, ui) {
         reply = Some(Reply::Yes);
     }
-    Modal::new(Id::unique("unsaved changes")).show(ui.ctx(), |ui| {
-        ui.set_width(width(ui));
+    dialog::show("unsaved changes", WIDTH, ui, |ui| {
         ui.heading("Save the changes?");
         ui.add_space(4.0);
         let name = match (&lab.path, &lab.lesson) {
@@ -71,7 +69,10 @@ fn ask_to_save(lab: &Lab, ui: &mut Ui) -> Option<Reply> {
         ui.add_space(10.0);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let word = if lab.path.is_some() { "Save" } else { "Save as…" };
-            for (word, answer) in [(word, Reply::Yes), ("Don't save", Reply::No), ("Cancel", Reply::Cancel)] {
+            if ui.add(dialog::main_button(word, ui)).clicked() {
+                reply = Some(Reply::Yes);
+            }
+            for (word, answer) in [("Don't save", Reply::No), ("Cancel", Reply::Cancel)] {
                 if ui.button(word).clicked() {
                     reply = Some(answer);
                 }
@@ -83,8 +84,7 @@ fn ask_to_save(lab: &Lab, ui: &mut Ui) -> Option<Reply> {
 
 fn offer(recovered: &[Recovered], ui: &mut Ui) -> Option<Reply> {
     let mut reply = take(Key::Escape, ui).then_some(Reply::Cancel);
-    Modal::new(Id::unique("recovery")).show(ui.ctx(), |ui| {
-        ui.set_width(width(ui));
+    dialog::show("recovery", WIDTH, ui, |ui| {
         ui.heading("The lab was not closed properly");
         ui.add_space(4.0);
         ui.label(match recovered.len() {
@@ -165,8 +165,7 @@ impl Problem {
     /// Shows it; whether it has been read.
     pub(super) fn show(&self, ui: &mut Ui) -> bool {
         let mut read = take(Key::Escape, ui) || take(Key::Enter, ui);
-        Modal::new(Id::unique("problem")).show(ui.ctx(), |ui| {
-            ui.set_width(width(ui));
+        dialog::show("problem", WIDTH, ui, |ui| {
             ui.heading(self.title);
             ui.add_space(4.0);
             ScrollArea::vertical().max_height(300.0).show(ui, |ui| {
@@ -174,7 +173,7 @@ impl Problem {
             });
             ui.add_space(10.0);
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                read |= ui.button("OK").clicked();
+                read |= ui.add(dialog::main_button("OK", ui)).clicked();
             });
         });
         read
@@ -193,8 +192,4 @@ pub(super) fn show_drop_hint(ui: &Ui) {
 
 fn take(key: Key, ui: &Ui) -> bool {
     ui.input_mut(|input| input.consume_key(Modifiers::NONE, key))
-}
-
-fn width(ui: &Ui) -> f32 {
-    WIDTH.min(ui.ctx().content_rect().width() - 60.0)
 }
