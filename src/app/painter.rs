@@ -193,7 +193,11 @@ fn paint_marker(marker: &Marker, viewport: &Viewport, rect: Rect, painter: &Pain
             painter.circle(center, half, fill, pen);
         }
         MarkerShape::Square => polygon(&[(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]),
-        MarkerShape::Diamond => polygon(&[(0.0, -1.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0)]),
+        // A square of the given side on its tip is √2 times as wide.
+        MarkerShape::Diamond => {
+            let tip = std::f32::consts::SQRT_2;
+            polygon(&[(0.0, -tip), (tip, 0.0), (0.0, tip), (-tip, 0.0)]);
+        }
         MarkerShape::Triangle => polygon(&[(0.0, -1.0), (0.87, 0.5), (-0.87, 0.5)]),
         MarkerShape::Cross => {
             painter.line_segment([center - Vec2::splat(half), center + Vec2::splat(half)], pen);

@@ -81,7 +81,7 @@ pub(super) fn knots(curve: &Nurbs<DVec2>, display: &CurveDisplay, theme: &Theme)
         Some(Item::Marker(Marker {
             at,
             shape: MarkerShape::Diamond,
-            size: (9.5 + 1.5 * (knot.multiplicity.min(8) as f64 - 1.0)) * theme.stroke_scale.sqrt(),
+            size: (7.0 + 1.1 * (knot.multiplicity.min(8) as f64 - 1.0)) * theme.stroke_scale.sqrt(),
             fill: Some(main),
             stroke: Some(Stroke::solid(theme.background, 1.0)),
         }))
