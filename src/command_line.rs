@@ -8,7 +8,7 @@ use clap::{Parser, Subcommand, ValueEnum};
 use glam::DVec2;
 
 use crate::course::lessons;
-use crate::document::{self, Content, Document};
+use crate::document::{self, Document};
 use crate::exchange::by_ending::{self, FigureFormat, figure, read_document};
 use crate::figure::composition::compose;
 use crate::figure::picture::Viewport;
@@ -192,17 +192,15 @@ fn check(file: &Path) -> Result<(), String> {
     let count = objects.len();
     say(&format!("{}: {count} {}", file.display(), if count == 1 { "object" } else { "objects" }))?;
     for object in objects {
-        let Content::Curve(curve) = &object.content;
-        let space = curve.space();
-        let (left, right) = space.parameter_interval();
+        let interval = object.curve().map(|curve| {
+            let (left, right) = curve.space().parameter_interval();
+            format!(", {} knots, interval [{left}, {right}]", curve.space().knots().len())
+        });
         say(&format!(
-            "  {}: {} {} curve of degree {}, {} control points, {} knots, interval [{left}, {right}]{}",
+            "  {}: {}{}{}",
             object.name,
-            if space.is_periodic() { "closed" } else { "open" },
-            if curve.is_polynomial() { "polynomial" } else { "rational" },
-            curve.degree(),
-            curve.points().len(),
-            space.knots().len(),
+            object.content.summary(),
+            interval.unwrap_or_default(),
             if object.visible { "" } else { ", hidden" },
         ))?;
     }

@@ -97,8 +97,8 @@ fn a_newer_version_is_named_whatever_else_it_contains() {
 /// A file with one curve, whose record is `fields`.
 fn file(fields: &str) -> String {
     format!(
-        "{{\"format\": \"spline-lab\", \"version\": 1, \"next_id\": 9, \"objects\": [{{\"id\": 1, \"kind\": \"curve\", \
-         \"visible\": true, {fields}}}]}}"
+        "{{\"format\": \"spline-lab\", \"version\": 1, \"next_id\": 9, \"objects\": [{{\"id\": 1, \
+         \"visible\": true, {fields}}}}}]}}"
     )
 }
 
@@ -106,29 +106,29 @@ fn file(fields: &str) -> String {
 fn impossible_values_are_named_with_their_place() {
     let line = "\"knots\": [0, 1, 2, 3], \"points\": [[0, 0], [1, 1]]";
     let cases = [
-        (format!("\"name\": \"L\", \"degree\": 1, {line}"), ""),
-        (format!("\"name\": \"L\", \"degree\": 0, {line}"), "objects[0].degree: the degree must be at least 1"),
-        (format!("\"name\": \"L\", \"degree\": 26, {line}"), "objects[0].degree: degree 26 is above the limit 25"),
-        (format!("\"name\": \"L\", \"degree\": -1, {line}"), "objects[0].degree (line 1"),
-        (format!("\"name\": \"L\", \"degree\": 1.5, {line}"), "objects[0].degree (line 1"),
-        (format!("\"name\": \" \", \"degree\": 1, {line}"), "objects[0].name: the name \" \" is empty"),
-        (format!("\"name\": \"a\\nb\", \"degree\": 1, {line}"), "objects[0].name: "),
-        (format!("\"name\": \"L\", \"degree\": 2, {line}"), "objects[0].knots: the knots make 1 B-splines"),
-        (format!("\"name\": \"L\", \"degree\": 1, {line}, \"weights\": [1, 0]"), "objects[0].weights[1]: weight 1 is 0; weights must be positive"),
-        (format!("\"name\": \"L\", \"degree\": 1, {line}, \"weights\": [1, -2]"), "objects[0].weights[1]: weight 1 is -2"),
-        (format!("\"name\": \"L\", \"degree\": 1, {line}, \"weights\": [1]"), "objects[0].weights: 1 weights given, 2 needed"),
-        (format!("\"name\": \"L\", \"degree\": 1, {line}, \"weights\": [1, \"x\"]"), "objects[0].weights[1] (line 1"),
-        (format!("\"name\": \"L\", \"degree\": 1, {line}, \"period\": 0.5"), "objects[0].period: the last knot 3"),
-        (format!("\"name\": \"L\", \"degree\": 1, {line}, \"colour\": 3"), "objects[0].colour (line 1"),
-        (format!("\"name\": \"L\", \"degree\": 1, {line}, \"display\": {{\"width\": 0}}"), "objects[0].display: width is 0; it must be from 0.01 to 100"),
-        (format!("\"name\": \"L\", \"degree\": 1, {line}, \"display\": {{\"comb_teeth\": 4000000000}}"), "objects[0].display: comb_teeth is 4000000000; it must be from 1 to 1000"),
-        (format!("\"name\": \"L\", \"degree\": 1, {line}, \"display\": {{\"glow\": true}}"), "objects[0].display.glow"),
-        ("\"name\": \"L\", \"degree\": 1, \"knots\": [0, 1, 0.5, 3], \"points\": [[0, 0], [1, 1]]".to_owned(), "objects[0].knots[2]: knot 2 is 0.5, smaller than the knot 1"),
-        ("\"name\": \"L\", \"degree\": 1, \"knots\": [0, 1, 2, 3], \"points\": [[0, 0], [1, 1e999]]".to_owned(), "line 1"),
-        ("\"name\": \"L\", \"degree\": 1, \"knots\": [0, 1, 2, 3], \"points\": [[0, 0], [1, NaN]]".to_owned(), "line 1"),
-        ("\"name\": \"L\", \"degree\": 1, \"knots\": [0, 1, 2, 3], \"points\": [[0, 0], [1]]".to_owned(), "objects[0].points[1]"),
-        ("\"name\": \"L\", \"degree\": 1, \"knots\": [0, 1, 2, 3], \"points\": [[0, 0]]".to_owned(), "objects[0].points: 1 coefficients given, 2 needed"),
-        ("\"name\": \"L\", \"degree\": 1, \"knots\": [0, 1, 2, 3], \"points\": [[0, 0], [1e308, 1]], \"weights\": [1, 1e10]".to_owned(), "objects[0].points[1]: "),
+        (format!("\"name\": \"L\", \"curve\": {{\"degree\": 1, {line}"), ""),
+        (format!("\"name\": \"L\", \"curve\": {{\"degree\": 0, {line}"), "objects[0].curve.degree: the degree must be at least 1"),
+        (format!("\"name\": \"L\", \"curve\": {{\"degree\": 26, {line}"), "objects[0].curve.degree: degree 26 is above the limit 25"),
+        (format!("\"name\": \"L\", \"curve\": {{\"degree\": -1, {line}"), "objects[0].curve.degree (line 1"),
+        (format!("\"name\": \"L\", \"curve\": {{\"degree\": 1.5, {line}"), "objects[0].curve.degree (line 1"),
+        (format!("\"name\": \" \", \"curve\": {{\"degree\": 1, {line}"), "objects[0].name: the name \" \" is empty"),
+        (format!("\"name\": \"a\\nb\", \"curve\": {{\"degree\": 1, {line}"), "objects[0].name: "),
+        (format!("\"name\": \"L\", \"curve\": {{\"degree\": 2, {line}"), "objects[0].curve.knots: the knots make 1 B-splines"),
+        (format!("\"name\": \"L\", \"curve\": {{\"degree\": 1, {line}, \"weights\": [1, 0]"), "objects[0].curve.weights[1]: weight 1 is 0; weights must be positive"),
+        (format!("\"name\": \"L\", \"curve\": {{\"degree\": 1, {line}, \"weights\": [1, -2]"), "objects[0].curve.weights[1]: weight 1 is -2"),
+        (format!("\"name\": \"L\", \"curve\": {{\"degree\": 1, {line}, \"weights\": [1]"), "objects[0].curve.weights: 1 weights given, 2 needed"),
+        (format!("\"name\": \"L\", \"curve\": {{\"degree\": 1, {line}, \"weights\": [1, \"x\"]"), "objects[0].curve.weights[1] (line 1"),
+        (format!("\"name\": \"L\", \"curve\": {{\"degree\": 1, {line}, \"period\": 0.5"), "objects[0].curve.period: the last knot 3"),
+        (format!("\"name\": \"L\", \"curve\": {{\"degree\": 1, {line}, \"colour\": 3"), "objects[0].curve.colour (line 1"),
+        (format!("\"name\": \"L\", \"curve\": {{\"degree\": 1, {line}, \"display\": {{\"width\": 0}}"), "objects[0].curve.display: width is 0; it must be from 0.01 to 100"),
+        (format!("\"name\": \"L\", \"curve\": {{\"degree\": 1, {line}, \"display\": {{\"comb_teeth\": 4000000000}}"), "objects[0].curve.display: comb_teeth is 4000000000; it must be from 1 to 1000"),
+        (format!("\"name\": \"L\", \"curve\": {{\"degree\": 1, {line}, \"display\": {{\"glow\": true}}"), "objects[0].curve.display.glow"),
+        ("\"name\": \"L\", \"curve\": {\"degree\": 1, \"knots\": [0, 1, 0.5, 3], \"points\": [[0, 0], [1, 1]]".to_owned(), "objects[0].curve.knots[2]: knot 2 is 0.5, smaller than the knot 1"),
+        ("\"name\": \"L\", \"curve\": {\"degree\": 1, \"knots\": [0, 1, 2, 3], \"points\": [[0, 0], [1, 1e999]]".to_owned(), "line 1"),
+        ("\"name\": \"L\", \"curve\": {\"degree\": 1, \"knots\": [0, 1, 2, 3], \"points\": [[0, 0], [1, NaN]]".to_owned(), "line 1"),
+        ("\"name\": \"L\", \"curve\": {\"degree\": 1, \"knots\": [0, 1, 2, 3], \"points\": [[0, 0], [1]]".to_owned(), "objects[0].curve.points[1]"),
+        ("\"name\": \"L\", \"curve\": {\"degree\": 1, \"knots\": [0, 1, 2, 3], \"points\": [[0, 0]]".to_owned(), "objects[0].curve.points: 1 coefficients given, 2 needed"),
+        ("\"name\": \"L\", \"curve\": {\"degree\": 1, \"knots\": [0, 1, 2, 3], \"points\": [[0, 0], [1e308, 1]], \"weights\": [1, 1e10]".to_owned(), "objects[0].curve.points[1]: "),
     ];
     for (fields, expected) in cases {
         match from_json(&file(&fields)) {
@@ -148,8 +148,8 @@ fn impossible_values_are_named_with_their_place() {
 fn numbers_of_objects_are_unique_and_below_the_next_one() {
     let object = |id: &str| {
         format!(
-            "{{\"id\": {id}, \"kind\": \"curve\", \"name\": \"L\", \"visible\": true, \"degree\": 1, \
-             \"knots\": [0, 1, 2, 3], \"points\": [[0, 0], [1, 1]]}}"
+            "{{\"id\": {id}, \"name\": \"L\", \"visible\": true, \"curve\": {{\"degree\": 1, \
+             \"knots\": [0, 1, 2, 3], \"points\": [[0, 0], [1, 1]]}}}}}}"
         )
     };
     let file = |ids: [&str; 2], next: &str| {
@@ -192,11 +192,11 @@ fn deep_nesting_and_huge_lists_end_in_an_error() {
     let points = "[0,0],".repeat(100_001);
     let knots = (0..100_003).map(|k| k.to_string()).collect::<Vec<_>>().join(",");
     let fields = format!(
-        "\"name\": \"L\", \"degree\": 1, \"knots\": [{knots}], \"points\": [{}]",
+        "\"name\": \"L\", \"curve\": {{\"degree\": 1, \"knots\": [{knots}], \"points\": [{}]",
         &points[..points.len() - 1]
     );
     let error = from_json(&file(&fields)).unwrap_err().to_string();
-    assert_eq!(error, "objects[0].points: 100001 points are above the limit 100000", "points");
+    assert_eq!(error, "objects[0].curve.points: 100001 points are above the limit 100000", "points");
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("huge.spline");
     std::fs::File::create(&path).unwrap().set_len(MAX_FILE_BYTES + 1).unwrap();

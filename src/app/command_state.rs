@@ -5,7 +5,7 @@ use eframe::egui::Context;
 use crate::app::command::Command;
 use crate::app::lab::{Lab, Tool};
 use crate::app::{KNOT_LINE, LEFT_PANEL, RIGHT_PANEL};
-use crate::document::{Content, CurveDisplay};
+use crate::document::CurveDisplay;
 use crate::figure::composition::GRID;
 
 /// Largest degree of a curve in the window.
@@ -62,10 +62,7 @@ pub(crate) fn is_on(command: Command, lab: &Lab) -> Option<bool> {
     let panel = |name: &str| lab.view.panels.get(name).copied().unwrap_or(true);
     let display = |choice: fn(&CurveDisplay) -> bool| {
         let object = lab.selection.object.and_then(|id| lab.history.document().object(id));
-        object.is_some_and(|object| {
-            let Content::Curve(_) = &object.content;
-            choice(&object.display)
-        })
+        object.and_then(|object| object.curve_display()).is_some_and(choice)
     };
     Some(match command {
         Command::SelectTool => lab.tool == Tool::Select,

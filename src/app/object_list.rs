@@ -11,7 +11,7 @@ use crate::app::command::Command;
 use crate::app::icon::{self, Icon};
 use crate::app::lab::{Lab, Selection};
 use crate::app::painter::color32;
-use crate::document::{Content, Edit, Object, ObjectId};
+use crate::document::{Edit, Object, ObjectId};
 
 /// The name that is being typed.
 #[derive(Clone, Debug)]
@@ -75,7 +75,7 @@ fn show_row(
         if icon::button(ui, sign, &format!("{word} {}", object.name), true).clicked() {
             lab.edit(Edit::SetVisible { object: id, visible: !object.visible });
         }
-        chip(ui, color32(lab.theme.basis_color(object.display.color)), object.visible);
+        chip(ui, color32(lab.theme.basis_color(object.content.color())), object.visible);
         if renaming.as_ref().is_some_and(|renaming| renaming.object == id) {
             rename(lab, ui, renaming);
             return;
@@ -97,7 +97,7 @@ fn show_row(
         if response.double_clicked() {
             *renaming = Some(Renaming { object: id, text: object.name.clone(), fresh: true });
         }
-        let response = response.on_hover_text(describe(object));
+        let response = response.on_hover_text(format!("{}\nDouble click renames", object.content.summary()));
         menu(lab, &response, objects, index, renaming);
         if buttons > 0.0 {
             ui.spacing_mut().item_spacing.x = 1.0;
@@ -117,21 +117,6 @@ fn chip(ui: &mut Ui, color: Color32, visible: bool) {
         ui.painter().rect_filled(rect, 3.0, color);
     } else {
         ui.painter().rect_stroke(rect, 3.0, Stroke::new(1.2, color), StrokeKind::Inside);
-    }
-}
-
-/// What the object is, in one line.
-fn describe(object: &Object) -> String {
-    match &object.content {
-        Content::Curve(curve) => {
-            let closed = if curve.space().is_periodic() { "closed" } else { "open" };
-            let rational = if curve.is_polynomial() { "" } else { ", rational" };
-            format!(
-                "{closed}, degree {}{rational}, {} points\nDouble click renames",
-                curve.degree(),
-                curve.points().len()
-            )
-        }
     }
 }
 

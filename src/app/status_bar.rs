@@ -4,7 +4,6 @@ use eframe::egui::{Align, Layout, RichText, Ui};
 
 use crate::app::lab::Lab;
 use crate::app::painter::color32;
-use crate::document::Content;
 use crate::figure::composition::short_number;
 
 /// Shows the line.
@@ -12,15 +11,7 @@ pub(crate) fn show(lab: &Lab, ui: &mut Ui) {
     ui.horizontal(|ui| {
         let muted = color32(lab.theme.muted_text);
         if let Some(object) = lab.selection.object.and_then(|id| lab.history.document().object(id)) {
-            let Content::Curve(curve) = &object.content;
-            let kind = if curve.is_polynomial() { "" } else { "rational " };
-            let ends = if curve.space().is_periodic() { "closed" } else { "open" };
-            let points = curve.points().len();
-            let text = format!(
-                "{}: {ends} {kind}curve of degree {}, {points} control points",
-                object.name,
-                curve.degree()
-            );
+            let text = format!("{}: {}", object.name, object.content.summary());
             ui.label(RichText::new(text).small().color(muted));
         }
         if let Some(note) = &lab.shape_note {

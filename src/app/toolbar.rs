@@ -4,7 +4,7 @@ use eframe::egui::{self, Button, RichText, Ui};
 
 use crate::app::command::Command;
 use crate::app::lab::{Lab, Tool};
-use crate::document::{Content, CurveDisplay};
+use crate::document::CurveDisplay;
 
 /// Shows the tabs of the workspaces and the tools; what they do is pushed to `lab.commands`.
 pub(crate) fn show(lab: &mut Lab, workspaces: &[&str], current: &mut usize, ui: &mut Ui) {
@@ -42,9 +42,7 @@ pub(crate) fn show(lab: &mut Lab, workspaces: &[&str], current: &mut usize, ui: 
 }
 
 fn selected_display(lab: &Lab) -> Option<CurveDisplay> {
-    let object = lab.history.document().object(lab.selection.object?)?;
-    let Content::Curve(_) = object.content;
-    Some(object.display.clone())
+    lab.history.document().object(lab.selection.object?)?.curve_display().cloned()
 }
 
 fn hover_text(command: Command, ui: &Ui) -> String {

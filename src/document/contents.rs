@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use crate::core::spline_curve::Nurbs;
-use crate::document::object::{Content, Object, ObjectId};
+use crate::document::object::{Object, ObjectId};
 
 /// What is saved and undone: objects in drawing order, the first one lowest.
 ///
@@ -53,14 +53,12 @@ impl Document {
         ObjectId(self.made + 1)
     }
 
-    /// Smallest and largest coordinates of the control points of the visible objects; weights are positive, so the
-    /// curves lie inside. `None` if nothing is visible.
+    /// Smallest and largest coordinates of the control points of the visible curves; weights are positive, so the
+    /// curves lie inside. `None` if none is visible.
     pub fn bounding_box(&self) -> Option<(DVec2, DVec2)> {
         let visible = self.objects.iter().filter(|object| object.visible);
-        let points = visible.flat_map(|object| {
-            let Content::Curve(curve) = &object.content;
-            curve.points().iter().copied()
-        });
+        let points =
+            visible.filter_map(|object| object.curve()).flat_map(|curve| curve.points().iter().copied());
         points.fold(None, |bounds, point| {
             Some(
                 bounds

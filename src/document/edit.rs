@@ -4,7 +4,7 @@ use glam::{DMat2, DVec2};
 
 use crate::core::spline_curve::Nurbs;
 use crate::document::display::CurveDisplay;
-use crate::document::object::ObjectId;
+use crate::document::object::{Content, ObjectId};
 
 /// The highest degree that edits reach. The library goes further; degrees above 12 teach nothing.
 pub const MAX_EDIT_DEGREE: usize = 12;
@@ -22,6 +22,22 @@ pub enum Edit {
         curve: Nurbs<DVec2>,
         /// How it is shown.
         display: CurveDisplay,
+    },
+    /// A new object of any kind above all others.
+    AddObject {
+        /// Name.
+        name: String,
+        /// What it is.
+        content: Content,
+    },
+    /// Puts other content of the same kind into an object.
+    SetContent {
+        /// The object.
+        object: ObjectId,
+        /// What it is from now on.
+        content: Content,
+        /// Name of the step.
+        label: String,
     },
     /// Removes objects.
     RemoveObjects {
@@ -232,7 +248,7 @@ impl Edit {
     /// The name for the Undo menu: `Move 3 points`, `Insert knot 0.5`.
     pub fn name(&self) -> String {
         match self {
-            Self::AddCurve { name, .. } => format!("Add {name}"),
+            Self::AddCurve { name, .. } | Self::AddObject { name, .. } => format!("Add {name}"),
             Self::RemoveObjects { objects } => counted("Delete", objects.len(), "object"),
             Self::DuplicateObject { .. } => "Duplicate".to_owned(),
             Self::RenameObject { name, .. } => format!("Rename to {name}"),
@@ -261,7 +277,9 @@ impl Edit {
             Self::DeletePoints { points, .. } => counted("Delete", points.len(), "point"),
             Self::Reverse { .. } => "Reverse".to_owned(),
             Self::TransformPoints { points, .. } => counted("Transform", points.len(), "point"),
-            Self::ReplaceCurve { label, .. } | Self::Batch { label, .. } => label.clone(),
+            Self::SetContent { label, .. } | Self::ReplaceCurve { label, .. } | Self::Batch { label, .. } => {
+                label.clone()
+            }
         }
     }
 }

@@ -15,6 +15,16 @@ pub enum EditError {
         /// The number.
         object: ObjectId,
     },
+    /// An object is of another kind.
+    #[error("object {object} is a {kind}, not a {wanted}")]
+    OtherKind {
+        /// The object.
+        object: ObjectId,
+        /// What it is.
+        kind: &'static str,
+        /// What it should be.
+        wanted: &'static str,
+    },
     /// A curve has no point with this index.
     #[error("object {object} has no point {index}; its {count} points are numbered from 0")]
     NoSuchPoint {
@@ -126,6 +136,7 @@ impl EditError {
     pub fn name(&self) -> &'static str {
         match self {
             Self::NoSuchObject { .. } => "NoSuchObject",
+            Self::OtherKind { .. } => "OtherKind",
             Self::NoSuchPoint { .. } => "NoSuchPoint",
             Self::NoSuchKnot { .. } => "NoSuchKnot",
             Self::NotAKnot { .. } => "NotAKnot",

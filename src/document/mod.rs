@@ -13,7 +13,6 @@ mod edit_error;
 mod file_error;
 mod history;
 mod json;
-mod json_writer;
 mod object;
 mod outcome;
 mod recovery;

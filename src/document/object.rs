@@ -19,7 +19,7 @@ impl fmt::Display for ObjectId {
     }
 }
 
-/// One object of a document: what it is, its name and how it is shown.
+/// One object of a document: what it is, its name and whether it is shown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Object {
     /// Its number.
@@ -28,31 +28,80 @@ pub struct Object {
     pub name: String,
     /// Whether it is drawn.
     pub visible: bool,
-    /// How it is drawn.
-    pub display: CurveDisplay,
-    /// What it is.
+    /// What it is, and how that is drawn.
     pub content: Content,
 }
 
-/// The mathematical object.
+/// The mathematical object and the choices how it is drawn, together what undo brings back.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Content {
     /// A plane curve, open or closed, polynomial or rational.
-    Curve(Nurbs<DVec2>),
+    Curve {
+        /// The curve.
+        curve: Nurbs<DVec2>,
+        /// How it is drawn.
+        display: CurveDisplay,
+    },
+}
+
+impl Content {
+    /// What it is, in one word as in the file format.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Curve { .. } => "curve",
+        }
+    }
+
+    /// What it is in half a line: `open rational curve of degree 3, 7 control points`.
+    pub fn summary(&self) -> String {
+        match self {
+            Self::Curve { curve, .. } => format!(
+                "{} {}curve of degree {}, {} control points",
+                if curve.space().is_periodic() { "closed" } else { "open" },
+                if curve.is_polynomial() { "" } else { "rational " },
+                curve.degree(),
+                curve.points().len()
+            ),
+        }
+    }
+
+    /// Index into the palette of object colours.
+    pub fn color(&self) -> usize {
+        match self {
+            Self::Curve { display, .. } => display.color,
+        }
+    }
+
+    /// Estimated memory in bytes.
+    fn byte_size(&self) -> usize {
+        match self {
+            Self::Curve { curve, .. } => {
+                let space = curve.space();
+                let numbers =
+                    2 * (space.knots().len() + space.evaluation_knots().len()) + 6 * curve.points().len();
+                numbers * size_of::<f64>()
+            }
+        }
+    }
 }
 
 impl Object {
     /// The curve, if the object is one.
     pub fn curve(&self) -> Option<&Nurbs<DVec2>> {
-        let Content::Curve(curve) = &self.content;
-        Some(curve)
+        match &self.content {
+            Content::Curve { curve, .. } => Some(curve),
+        }
+    }
+
+    /// How the curve is drawn, if the object is one.
+    pub fn curve_display(&self) -> Option<&CurveDisplay> {
+        match &self.content {
+            Content::Curve { display, .. } => Some(display),
+        }
     }
 
     /// Estimated memory in bytes.
     pub(in crate::document) fn byte_size(&self) -> usize {
-        let Content::Curve(curve) = &self.content;
-        let space = curve.space();
-        let numbers = 2 * (space.knots().len() + space.evaluation_knots().len()) + 6 * curve.points().len();
-        size_of::<Self>() + self.name.len() + numbers * size_of::<f64>()
+        size_of::<Self>() + self.name.len() + self.content.byte_size()
     }
 }

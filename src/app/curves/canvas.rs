@@ -408,7 +408,7 @@ fn delete(lab: &mut Lab) {
 fn edit_selected(command: Command, lab: &mut Lab) -> bool {
     let Some(object) = lab.selection.object else { return false };
     let Some(found) = lab.history.document().object(object) else { return false };
-    let mut display = found.display.clone();
+    let Some(mut display) = found.curve_display().cloned() else { return false };
     let mut change = |change: fn(&mut CurveDisplay)| {
         change(&mut display);
         Edit::SetDisplay { object, display: display.clone() }

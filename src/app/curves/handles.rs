@@ -55,7 +55,7 @@ pub(super) fn bead_place(lab: &Lab, object: &Object) -> Option<(usize, DVec2)> {
     if lab.selection.points.len() != 1 || lab.selection.object != Some(object.id) {
         return None;
     }
-    let Content::Curve(curve) = &object.content;
+    let curve = object.curve()?;
     let weight = *curve.weights().get(index)?;
     let pull = pull(curve, index)?;
     let share = weight * pull.influence / (pull.rest + weight * pull.influence);
@@ -77,7 +77,7 @@ pub(super) fn paint(lab: &Lab, viewport: &Viewport, rect: Rect, painter: &Painte
     let place = |world: DVec2| screen_from_world(viewport, rect, world);
     let selection = color32(lab.theme.selection);
     for object in lab.history.document().objects().iter().filter(|object| object.visible) {
-        let Content::Curve(curve) = &object.content;
+        let Some(curve) = object.curve() else { continue };
         paint_hover(lab, object, curve, viewport, rect, painter);
         if lab.selection.object != Some(object.id) {
             continue;
@@ -226,7 +226,7 @@ fn paint_part(
 pub(super) fn announce(lab: &Lab, viewport: &Viewport, rect: Rect, ui: &egui::Ui) {
     let reach = vec2(18.0, 18.0);
     for object in lab.history.document().objects().iter().filter(|object| object.visible) {
-        let Content::Curve(curve) = &object.content;
+        let Some(curve) = object.curve() else { continue };
         let say = |name: String, world: DVec2| {
             let area = Rect::from_center_size(screen_from_world(viewport, rect, world), reach);
             if rect.contains_rect(area) {

@@ -6,7 +6,7 @@ use glam::DVec2;
 use crate::app::curves::handles::bead_place;
 use crate::app::lab::Lab;
 use crate::app::painter::{screen_from_world, world_from_screen};
-use crate::document::{Content, Object, ObjectId};
+use crate::document::{Object, ObjectId};
 use crate::figure::picture::Viewport;
 
 /// Pixels within which a control point is taken.
@@ -68,8 +68,8 @@ pub(super) fn target_at(lab: &Lab, viewport: &Viewport, rect: Rect, pointer: Pos
         if let Some(point) = nearest_point(object, viewport, rect, pointer) {
             return Target::Point(object.id, point);
         }
-        let Content::Curve(curve) = &object.content;
-        if let Some(parameter) = lab.parameter(object.id)
+        if let Some(curve) = object.curve()
+            && let Some(parameter) = lab.parameter(object.id)
             && curve.evaluate(parameter).is_ok_and(|place| near(place, POINT_REACH))
         {
             return Target::Parameter(object.id);
@@ -82,9 +82,9 @@ pub(super) fn target_at(lab: &Lab, viewport: &Viewport, rect: Rect, pointer: Pos
     }
     let world = world_from_screen(viewport, rect, pointer);
     if let Some(object) = selected
-        && object.display.knots
+        && let Some(curve) = object.curve()
+        && object.curve_display().is_some_and(|display| display.knots)
     {
-        let Content::Curve(curve) = &object.content;
         let distinct = curve.space().distinct_knots();
         if distinct.len() <= 2000 {
             for knot in distinct {
@@ -97,7 +97,7 @@ pub(super) fn target_at(lab: &Lab, viewport: &Viewport, rect: Rect, pointer: Pos
     let reach = CURVE_REACH / viewport.scale;
     let mut best: Option<(f64, Target)> = None;
     for object in selected.into_iter().chain(visible.iter().rev().copied()) {
-        let Content::Curve(curve) = &object.content;
+        let Some(curve) = object.curve() else { continue };
         if far_from_polygon(curve.points(), world, reach) {
             continue;
         }
@@ -112,10 +112,7 @@ pub(super) fn target_at(lab: &Lab, viewport: &Viewport, rect: Rect, pointer: Pos
 }
 
 fn nearest_point(object: &Object, viewport: &Viewport, rect: Rect, pointer: Pos2) -> Option<usize> {
-    if !object.display.points {
-        return None;
-    }
-    let Content::Curve(curve) = &object.content;
+    let curve = object.curve().filter(|_| object.curve_display().is_some_and(|display| display.points))?;
     let distance = |&place: &DVec2| screen_from_world(viewport, rect, place).distance(pointer);
     let nearest = curve.points().iter().map(distance).enumerate().min_by(|a, b| a.1.total_cmp(&b.1))?;
     (nearest.1 <= POINT_REACH).then_some(nearest.0)

@@ -26,12 +26,12 @@ struct Subject {
 pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
     let subject = lab.selection.object.and_then(|id| {
         let document = lab.history.document();
-        let (object, curve) = (document.object(id)?, document.curve(id)?);
+        let object = document.object(id)?;
         Some(Subject {
             object: id,
             name: object.name.clone(),
-            display: object.display.clone(),
-            curve: curve.clone(),
+            display: object.curve_display()?.clone(),
+            curve: object.curve()?.clone(),
         })
     });
     let Some(subject) = subject else {

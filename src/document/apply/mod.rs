@@ -45,7 +45,25 @@ impl Document {
 
     fn carry_out(&mut self, edit: &Edit, depth: usize) -> Result<Outcome, EditError> {
         match edit {
-            Edit::AddCurve { name, curve, display } => objects::add_curve(self, name, curve, display),
+            Edit::AddCurve { name, curve, display } => {
+                let content = Content::Curve { curve: curve.clone(), display: display.clone() };
+                objects::add(self, name, content)
+            }
+            Edit::AddObject { name, content } => objects::add(self, name, content.clone()),
+            Edit::SetContent { object, content, .. } => {
+                check_content(content)?;
+                self.change(*object, |found| {
+                    if found.content.kind() != content.kind() {
+                        return Err(EditError::OtherKind {
+                            object: *object,
+                            kind: found.content.kind(),
+                            wanted: content.kind(),
+                        });
+                    }
+                    found.content = content.clone();
+                    Ok(ShapeChange::None)
+                })
+            }
             Edit::RemoveObjects { objects } => objects::remove(self, objects),
             Edit::DuplicateObject { object } => objects::duplicate(self, *object),
             Edit::RenameObject { object, name } => objects::rename(self, *object, name),
@@ -56,9 +74,11 @@ impl Document {
             }),
             Edit::SetDisplay { object, display } => {
                 display.check()?;
-                self.change(*object, |found| {
-                    found.display = display.clone();
-                    Ok(ShapeChange::None)
+                self.change(*object, |found| match &mut found.content {
+                    Content::Curve { display: shown, .. } => {
+                        *shown = display.clone();
+                        Ok(ShapeChange::None)
+                    }
                 })
             }
             Edit::MovePoints { object, points, delta } => {
@@ -156,10 +176,10 @@ impl Document {
         change: impl FnOnce(&Nurbs<DVec2>) -> Result<(Nurbs<DVec2>, ShapeChange), EditError>,
     ) -> Result<Outcome, EditError> {
         self.change(id, |object| {
-            let Content::Curve(curve) = &object.content;
-            let (curve, shape) = change(curve)?;
-            check_point_count(curve.points().len())?;
-            object.content = Content::Curve(curve);
+            let Content::Curve { curve, .. } = &mut object.content;
+            let (new, shape) = change(curve)?;
+            check_point_count(new.points().len())?;
+            *curve = new;
             Ok(shape)
         })
     }
@@ -183,6 +203,16 @@ impl ShapeChange {
             Self::None => Some(0.0),
             Self::Kept { deviation } => Some(deviation),
             Self::Changed { deviation, .. } => deviation,
+        }
+    }
+}
+
+/// Whether the numbers of `content` can be drawn and are not too many.
+fn check_content(content: &Content) -> Result<(), EditError> {
+    match content {
+        Content::Curve { curve, display } => {
+            display.check()?;
+            check_point_count(curve.points().len())
         }
     }
 }

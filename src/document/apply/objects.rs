@@ -2,12 +2,8 @@
 
 use std::sync::Arc;
 
-use glam::DVec2;
-
-use crate::core::spline_curve::Nurbs;
-use crate::document::apply::{MAX_ID, MAX_OBJECTS, check_point_count};
+use crate::document::apply::{MAX_ID, MAX_OBJECTS, check_content};
 use crate::document::contents::Document;
-use crate::document::display::CurveDisplay;
 use crate::document::edit_error::EditError;
 use crate::document::object::{Content, Object, ObjectId};
 use crate::document::outcome::{Outcome, ShapeChange};
@@ -15,18 +11,11 @@ use crate::document::outcome::{Outcome, ShapeChange};
 /// The longest name in bytes: more does not fit into any list.
 pub(in crate::document) const MAX_NAME: usize = 1000;
 
-pub(super) fn add_curve(
-    document: &mut Document,
-    name: &str,
-    curve: &Nurbs<DVec2>,
-    display: &CurveDisplay,
-) -> Result<Outcome, EditError> {
+pub(super) fn add(document: &mut Document, name: &str, content: Content) -> Result<Outcome, EditError> {
     check_name(name)?;
-    display.check()?;
-    check_point_count(curve.points().len())?;
+    check_content(&content)?;
     let id = new_id(document)?;
-    let content = Content::Curve(curve.clone());
-    let object = Object { id, name: name.to_owned(), visible: true, display: display.clone(), content };
+    let object = Object { id, name: name.to_owned(), visible: true, content };
     document.objects.push(Arc::new(object));
     Ok(Outcome { shape: ShapeChange::None, created: vec![id] })
 }

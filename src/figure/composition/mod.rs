@@ -9,7 +9,7 @@ mod curve_layers;
 use glam::DVec2;
 
 use crate::core::spline_curve::Nurbs;
-use crate::document::{Content, Document, Object, View};
+use crate::document::{Content, CurveDisplay, Document, Object, View};
 use crate::figure::picture::{Picture, Viewport};
 use crate::figure::theme::Theme;
 use crate::figure::ticks::{grid_labels, grid_lines};
@@ -48,10 +48,10 @@ pub fn compose_with(
         picture.push_layer("scale", grid_labels(viewport, theme));
     }
     for object in document.objects().iter().filter(|object| object.visible) {
-        let Content::Curve(curve) = &object.content;
+        let Content::Curve { curve, display } = &object.content;
         let parameter = parameter_of(curve, view.parameters.get(&object.id).copied());
         let reveal = choices.reveal.as_ref().filter(|(id, _)| *id == object.id).map(|(_, reveal)| reveal);
-        push_curve(&mut picture, object, curve, parameter, reveal, theme, viewport);
+        push_curve(&mut picture, object, (curve, display), parameter, reveal, theme, viewport);
     }
     picture
 }
@@ -65,13 +65,12 @@ pub fn parameter_of(curve: &Nurbs<DVec2>, chosen: Option<f64>) -> f64 {
 fn push_curve(
     picture: &mut Picture,
     object: &Object,
-    curve: &Nurbs<DVec2>,
+    (curve, display): (&Nurbs<DVec2>, &CurveDisplay),
     parameter: f64,
     reveal: Option<&SchemeReveal>,
     theme: &Theme,
     viewport: &Viewport,
 ) {
-    let display = &object.display;
     let layer = |part: &str| format!("{}: {part}", object.name);
     if display.comb {
         picture.push_layer(layer("curvature comb"), curve_layers::comb(curve, display, theme));

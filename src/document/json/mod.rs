@@ -2,28 +2,29 @@
 //!
 //! ```text
 //! {"format": "spline-lab", "version": 1,
-//!  "objects": [{"id": 1, "kind": "curve", "name": "Wave", "visible": true, "degree": 3, "knots": […],
-//!               "period": T (closed curves only), "points": [[x, y], …], "weights": […] (unless all are 1), "display": {…}}],
+//!  "objects": [{"id": 1, "name": "Wave", "visible": true, "curve": {…}}],
 //!  "next_id": 2, "view": {…}}
 //! ```
+//!
+//! What an object is stands under the name of its kind, in a record of its own.
 //!
 //! Numbers are written in the shortest form that reads back as the same number. Unknown keys are refused, except in `view`:
 //! data that this program does not understand would be lost with the next save.
 
+mod curve;
+mod writer;
+
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use glam::DVec2;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-use crate::core::bspline::{SplineError, SplineSpace};
-use crate::core::spline_curve::Nurbs;
-use crate::document::apply::{MAX_ID, MAX_OBJECTS, MAX_POINTS, check_name};
+use crate::document::apply::{MAX_ID, MAX_OBJECTS, check_name};
 use crate::document::contents::Document;
-use crate::document::display::CurveDisplay;
 use crate::document::file_error::FileError;
-use crate::document::json_writer::Node;
+use crate::document::json::curve::CurveRecord;
+use crate::document::json::writer::Node;
 use crate::document::object::{Content, Object, ObjectId};
 use crate::document::storage::check_size;
 use crate::document::view::{Saved, View};
@@ -55,29 +56,15 @@ struct FileRecord {
     view: View,
 }
 
+/// One of the kinds must be there, and no more than one.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ObjectRecord {
     id: u64,
-    #[serde(rename = "kind")]
-    _kind: Kind,
     name: String,
     visible: bool,
-    degree: usize,
-    knots: Vec<f64>,
     #[serde(default)]
-    period: Option<f64>,
-    points: Vec<[f64; 2]>,
-    #[serde(default)]
-    weights: Option<Vec<f64>>,
-    #[serde(default)]
-    display: CurveDisplay,
-}
-
-#[derive(Deserialize)]
-#[serde(rename_all = "kebab-case")]
-enum Kind {
-    Curve,
+    curve: Option<CurveRecord>,
 }
 
 /// The text of a file.
@@ -123,24 +110,15 @@ fn entry(key: &str, value: Value) -> (String, Node) {
 }
 
 fn object_node(object: &Object) -> Node {
-    let Content::Curve(curve) = &object.content;
-    let space = curve.space();
-    let points = curve.points().iter().map(|point| Node::from(json!([point.x, point.y]))).collect();
-    let mut entries = vec![
+    let content = match &object.content {
+        Content::Curve { curve, display } => curve::node(curve, display),
+    };
+    Node::Record(vec![
         entry("id", json!(object.id)),
-        entry("kind", json!("curve")),
         entry("name", json!(object.name)),
         entry("visible", json!(object.visible)),
-        entry("degree", json!(curve.degree())),
-        entry("knots", json!(space.knots())),
-    ];
-    entries.extend(space.period().map(|period| entry("period", json!(period))));
-    entries.push(("points".to_owned(), Node::List(points)));
-    if curve.weights().iter().any(|weight| weight.to_bits() != 1.0_f64.to_bits()) {
-        entries.push(entry("weights", json!(curve.weights())));
-    }
-    entries.push(entry("display", json!(object.display)));
-    Node::Record(entries)
+        (object.content.kind().to_owned(), content),
+    ])
 }
 
 fn view_node(view: &View) -> Node {
@@ -213,57 +191,12 @@ fn document_of(records: Vec<ObjectRecord>, next_id: u64) -> Result<Document, Fil
 
 fn object_of(record: ObjectRecord, place: &str) -> Result<Object, FileError> {
     check_name(&record.name).map_err(|error| FileError::value(format!("{place}.name"), error))?;
-    let count = record.points.len();
-    if count > MAX_POINTS {
-        let message = format!("{count} points are above the limit {MAX_POINTS}");
-        return Err(FileError::value(format!("{place}.points"), message));
-    }
-    record.display.check().map_err(|error| FileError::value(format!("{place}.display"), error))?;
-    let curve = curve_of(record.degree, record.knots, record.period, &record.points, record.weights)
-        .map_err(|error| FileError::value(format!("{place}{}", field_of(&error)), error))?;
-    Ok(Object {
-        id: ObjectId(record.id),
-        name: record.name,
-        visible: record.visible,
-        display: record.display,
-        content: Content::Curve(curve),
-    })
-}
-
-fn curve_of(
-    degree: usize,
-    knots: Vec<f64>,
-    period: Option<f64>,
-    points: &[[f64; 2]],
-    weights: Option<Vec<f64>>,
-) -> Result<Nurbs<DVec2>, SplineError> {
-    let space = match period {
-        Some(period) => SplineSpace::periodic(degree, period, knots)?,
-        None => SplineSpace::new(degree, knots)?,
+    let kinds = [record.curve.map(|curve| curve.content(&format!("{place}.curve")))];
+    let mut found = kinds.into_iter().flatten();
+    let (Some(content), None) = (found.next(), found.next()) else {
+        return Err(FileError::value(place, "an object needs exactly one of the kinds curve"));
     };
-    let points = points.iter().copied().map(DVec2::from_array).collect();
-    match weights {
-        Some(weights) => Nurbs::new(space, points, weights),
-        None => Nurbs::polynomial(space, points),
-    }
-}
-
-/// The entry of the object's record that `error` is about.
-fn field_of(error: &SplineError) -> String {
-    match error {
-        SplineError::DegreeZero | SplineError::StepLimit { .. } => ".degree".to_owned(),
-        SplineError::KnotsDecreasing { index, .. } | SplineError::KnotMultiplicityTooHigh { index, .. } => {
-            format!(".knots[{index}]")
-        }
-        SplineError::KnotsNotRegular { .. } => ".knots".to_owned(),
-        SplineError::PeriodTooShort { .. } => ".period".to_owned(),
-        SplineError::WeightNotPositive { index, .. } => format!(".weights[{index}]"),
-        SplineError::NonFinite { what: "coefficient", index, .. } => format!(".points[{index}]"),
-        SplineError::NonFinite { what: "unrolled knot", .. } => ".period".to_owned(),
-        SplineError::SizeMismatch { what: "coefficients", .. } => ".points".to_owned(),
-        SplineError::SizeMismatch { what, .. } | SplineError::Empty { what } => format!(".{what}"),
-        _ => String::new(),
-    }
+    Ok(Object { id: ObjectId(record.id), name: record.name, visible: record.visible, content: content? })
 }
 
 fn check_view(view: &View) -> Result<(), FileError> {
