@@ -2,6 +2,8 @@
 
 use eframe::egui::{Key, KeyboardShortcut, Modifiers};
 
+use crate::app::workspace::Room;
+
 /// A command without arguments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Command {
@@ -119,6 +121,14 @@ pub enum Menu {
 impl Menu {
     /// All menus.
     pub const ALL: [Self; 6] = [Self::File, Self::Edit, Self::Curve, Self::View, Self::Lesson, Self::Help];
+
+    /// The only room where the menu is shown; `None` if it is everywhere.
+    pub fn room(self) -> Option<Room> {
+        match self {
+            Self::Curve => Some(Room::Curves),
+            _ => None,
+        }
+    }
 
     /// The title.
     pub fn title(self) -> &'static str {
@@ -297,6 +307,23 @@ impl Command {
         Some(KeyboardShortcut::new(modifiers, key))
     }
 
+    /// The only room where the command means something; `None` if it does everywhere.
+    pub fn room(self) -> Option<Room> {
+        match self {
+            Self::TogglePolygon
+            | Self::ToggleComb
+            | Self::ToggleConstruction
+            | Self::CycleLabels
+            | Self::ToggleHull
+            | Self::ToggleCircle
+            | Self::ToggleKnotLine
+            | Self::StepperPlay
+            | Self::StepForward
+            | Self::StepBack => Some(Room::Curves),
+            _ => self.menu().room(),
+        }
+    }
+
     /// The menu that lists the command.
     pub fn menu(self) -> Menu {
         match self {
@@ -339,8 +366,9 @@ mod tests {
     fn no_two_commands_share_a_key() {
         for (i, a) in Command::ALL.iter().enumerate() {
             for b in &Command::ALL[i + 1..] {
+                let apart = a.room().is_some() && b.room().is_some() && a.room() != b.room();
                 assert!(
-                    a.shortcut().is_none() || a.shortcut() != b.shortcut(),
+                    apart || a.shortcut().is_none() || a.shortcut() != b.shortcut(),
                     "{a:?} and {b:?} are both on {:?}",
                     a.shortcut()
                 );

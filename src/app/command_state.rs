@@ -30,6 +30,9 @@ pub(crate) fn key_text(command: Command, ctx: &Context) -> Option<String> {
 
 /// Whether `command` has something to work on.
 pub(crate) fn is_possible(command: Command, lab: &Lab) -> bool {
+    if command.room().is_some_and(|room| room != lab.room()) {
+        return false;
+    }
     match command {
         Command::Undo => lab.history.undo_name().is_some(),
         Command::Redo => lab.history.redo_name().is_some(),

@@ -8,6 +8,7 @@ use glam::DVec2;
 
 use crate::app::command::Command;
 use crate::app::sheet::{Sheet, Shelf};
+use crate::app::workspace::Room;
 use crate::core::spline_curve::Nurbs;
 use crate::course::{Lesson, Stepper, Verdict};
 use crate::document::{Document, Edit, EditError, History, ObjectId, Outcome, ShapeChange, View};
@@ -193,6 +194,31 @@ impl Lab {
         self.brought_back || self.history.is_modified()
     }
 
+    /// The room that the lab shows.
+    pub fn room(&self) -> Room {
+        Room::by_key(&self.view.workspace)
+    }
+
+    /// Goes to `room`; if the selected object does not belong there, the last one that does is selected.
+    pub fn enter(&mut self, room: Room) {
+        room.key().clone_into(&mut self.view.workspace);
+        let objects = self.history.document().objects();
+        let at_home = |id| objects.iter().any(|object| object.id == id && Room::of(&object.content) == room);
+        if !self.selection.object.is_some_and(at_home) {
+            let last = objects.iter().rfind(|object| Room::of(&object.content) == room);
+            self.selection = Selection { object: last.map(|object| object.id), ..Selection::default() };
+        }
+    }
+
+    /// Selects `object` and goes to the room where it is worked on.
+    pub fn select(&mut self, object: ObjectId) {
+        if let Some(found) = self.history.document().object(object) {
+            let room = Room::of(&found.content);
+            self.selection = Selection { object: Some(object), ..Selection::default() };
+            self.enter(room);
+        }
+    }
+
     /// The curve of the selected object.
     pub fn curve(&self) -> Option<&Nurbs<DVec2>> {
         self.selection.object.and_then(|id| self.history.document().curve(id))
@@ -267,7 +293,9 @@ impl Lab {
             self.selection = Selection::default();
         }
         if self.selection.object.is_none() {
-            self.selection.object = document.objects().last().map(|object| object.id);
+            let room = self.room();
+            let at_home = document.objects().iter().rfind(|object| Room::of(&object.content) == room);
+            self.selection.object = at_home.map(|object| object.id);
         }
         let count = self.curve().map_or(0, |curve| curve.points().len());
         self.selection.points.retain(|&point| point < count);

@@ -12,10 +12,14 @@ use crate::app::lab::Lab;
 /// Shows the menus; what they do is pushed to `lab.commands` or asked of `files`.
 pub(crate) fn show(lab: &mut Lab, files: &mut Files, ui: &mut Ui) {
     MenuBar::new().ui(ui, |ui| {
-        for menu in Menu::ALL {
+        let room = lab.room();
+        for menu in Menu::ALL.into_iter().filter(|menu| menu.room().is_none_or(|only| only == room)) {
             ui.menu_button(menu.title(), |ui| {
                 ui.set_min_width(210.0);
-                let commands = Command::ALL.into_iter().filter(|command| command.menu() == menu);
+                let commands = Command::ALL.into_iter().filter(|command| {
+                    command.menu() == menu && command.room().is_none_or(|only| only == room)
+                });
+                let commands: Vec<Command> = commands.collect();
                 for command in commands {
                     if starts_group(command) {
                         ui.separator();

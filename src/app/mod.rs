@@ -36,7 +36,7 @@ mod test_bench;
 mod text_field;
 mod toolbar;
 mod window;
-mod workspace;
+pub mod workspace;
 
 pub use window::{LabApp, run};
 

@@ -9,7 +9,7 @@ use eframe::egui::{
 
 use crate::app::command::Command;
 use crate::app::icon::{self, Icon};
-use crate::app::lab::{Lab, Selection};
+use crate::app::lab::Lab;
 use crate::app::painter::color32;
 use crate::document::{Edit, Object, ObjectId};
 
@@ -92,7 +92,7 @@ fn show_row(
             .allocate_ui_with_layout(size, Layout::top_down_justified(Align::LEFT), |ui| ui.add(button))
             .inner;
         if response.clicked() && !selected {
-            lab.selection = Selection { object: Some(id), ..Selection::default() };
+            lab.select(id);
         }
         if response.double_clicked() {
             *renaming = Some(Renaming { object: id, text: object.name.clone(), fresh: true });
@@ -165,7 +165,7 @@ fn menu(
             && let Some(outcome) = lab.edit(Edit::DuplicateObject { object: id })
             && let Some(&created) = outcome.created.first()
         {
-            lab.selection = Selection { object: Some(created), ..Selection::default() };
+            lab.select(created);
         }
         if item(ui, if object.visible { "Hide" } else { "Show" }, true) {
             lab.edit(Edit::SetVisible { object: id, visible: !object.visible });

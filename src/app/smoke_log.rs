@@ -1,5 +1,6 @@
 //! A record for tests that drive the real window: where things are on the screen, line by line as they change.
 
+use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::Write as _;
 use std::path::PathBuf;
@@ -9,6 +10,7 @@ use glam::DVec2;
 use serde::Serialize;
 
 use crate::app::lab::Lab;
+use crate::app::workspace::{Room, Workspace};
 
 /// Environment variable that names the file; without it nothing is written.
 const VARIABLE: &str = "SPLINE_LAB_SMOKE_LOG";
@@ -26,6 +28,7 @@ pub(crate) struct SmokeLog {
 /// What a line tells besides its event. Places on the screen are in pixels of the window.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 struct Record {
+    room: &'static str,
     revision: u64,
     objects: usize,
     selected: Option<u64>,
@@ -34,6 +37,7 @@ struct Record {
     weights: Vec<f64>,
     knots: Vec<f64>,
     curve_at: Option<[f64; 2]>,
+    handles: BTreeMap<String, [f64; 2]>,
     undo: Option<String>,
     redo: Option<String>,
     modified: bool,
@@ -59,18 +63,14 @@ impl SmokeLog {
         Some(Self { file: File::create(path).ok()?, last: None })
     }
 
-    /// Called at the end of every frame. `screen_from_world` gives logical pixels, `None` before the canvas was shown.
-    pub(crate) fn frame(
-        &mut self,
-        lab: &Lab,
-        screen_from_world: &dyn Fn(DVec2) -> Option<Pos2>,
-        ctx: &Context,
-    ) {
+    /// Called at the end of every frame.
+    pub(crate) fn frame(&mut self, lab: &Lab, workspace: &dyn Workspace, ctx: &Context) {
         let scale = f64::from(ctx.pixels_per_point());
-        let pixel = |world: DVec2| {
-            screen_from_world(world).map(|at| [f64::from(at.x) * scale, f64::from(at.y) * scale])
-        };
-        let Some(record) = Record::of(lab, &pixel, ctx) else { return };
+        let pixel = |at: Pos2| [f64::from(at.x) * scale, f64::from(at.y) * scale];
+        let handles: BTreeMap<String, [f64; 2]> =
+            workspace.handles(lab).into_iter().map(|(name, at)| (name, pixel(at))).collect();
+        let on_screen = |world: DVec2| workspace.screen_from_world(world, lab).map(pixel);
+        let Some(record) = Record::of(lab, &on_screen, handles, ctx) else { return };
         let event = match &self.last {
             None => "ready",
             Some(last) if *last == record => return,
@@ -88,12 +88,21 @@ impl SmokeLog {
 }
 
 impl Record {
-    fn of(lab: &Lab, pixel: &dyn Fn(DVec2) -> Option<[f64; 2]>, ctx: &Context) -> Option<Self> {
+    fn of(
+        lab: &Lab,
+        pixel: &dyn Fn(DVec2) -> Option<[f64; 2]>,
+        handles: BTreeMap<String, [f64; 2]>,
+        ctx: &Context,
+    ) -> Option<Self> {
         let scale = f64::from(ctx.pixels_per_point());
         let window = ctx.content_rect().size();
-        pixel(DVec2::ZERO)?;
+        // Nothing has been shown yet.
+        if lab.room() == Room::Curves {
+            pixel(DVec2::ZERO)?;
+        }
         let world = lab.curve().map(|curve| curve.points().to_vec()).unwrap_or_default();
         Some(Self {
+            room: lab.room().title(),
             revision: lab.history.revision(),
             objects: lab.history.document().len(),
             selected: lab.selection.object.map(|id| id.0),
@@ -102,6 +111,7 @@ impl Record {
             weights: lab.curve().map(|curve| curve.weights().to_vec()).unwrap_or_default(),
             knots: lab.curve().map(|curve| curve.space().knots().to_vec()).unwrap_or_default(),
             curve_at: free_place(lab, pixel),
+            handles,
             undo: lab.history.undo_name().map(str::to_owned),
             redo: lab.history.redo_name().map(str::to_owned),
             modified: lab.is_modified(),

@@ -4,10 +4,9 @@ use eframe::egui::{Align, Layout, RichText, Ui};
 
 use crate::app::lab::Lab;
 use crate::app::painter::color32;
-use crate::figure::composition::short_number;
 
-/// Shows the line.
-pub(crate) fn show(lab: &Lab, ui: &mut Ui) {
+/// Shows the line; `workspace` stands at its right end.
+pub(crate) fn show(lab: &Lab, workspace: &str, ui: &mut Ui) {
     ui.horizontal(|ui| {
         let muted = color32(lab.theme.muted_text);
         if let Some(object) = lab.selection.object.and_then(|id| lab.history.document().object(id)) {
@@ -19,8 +18,7 @@ pub(crate) fn show(lab: &Lab, ui: &mut Ui) {
             ui.label(RichText::new(note).small());
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let scale = short_number(lab.view.camera.scale);
-            ui.label(RichText::new(format!("{scale} px per unit")).small().color(muted));
+            ui.label(RichText::new(workspace).small().color(muted));
         });
     });
 }

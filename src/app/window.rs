@@ -12,10 +12,10 @@ use crate::app::painter::color32;
 use crate::app::palette::Palette;
 use crate::app::shortcut_sheet::ShortcutSheet;
 use crate::app::smoke_log::SmokeLog;
-use crate::app::workspace::{self, Workspace};
+use crate::app::workspace::{self, Room, Workspace};
 use crate::app::{
-    LEFT_PANEL, RIGHT_PANEL, files, inspector, lesson_panel, look, menu_bar, object_list, status_bar,
-    stepper_panel, toolbar,
+    LEFT_PANEL, RIGHT_PANEL, files, lesson_panel, look, menu_bar, object_list, status_bar, stepper_panel,
+    toolbar,
 };
 use crate::document::first_scene;
 use crate::figure::theme::Theme;
@@ -23,8 +23,8 @@ use crate::figure::theme::Theme;
 /// The program with its window.
 pub struct LabApp {
     lab: Lab,
+    /// In the order of [`Room::ALL`].
     workspaces: Vec<Box<dyn Workspace>>,
-    current: usize,
     files: Files,
     palette: Palette,
     shortcut_sheet: ShortcutSheet,
@@ -35,10 +35,7 @@ pub struct LabApp {
 
 impl std::fmt::Debug for LabApp {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("LabApp")
-            .field("lab", &self.lab)
-            .field("current", &self.current)
-            .finish_non_exhaustive()
+        f.debug_struct("LabApp").field("lab", &self.lab).finish_non_exhaustive()
     }
 }
 
@@ -73,7 +70,6 @@ impl LabApp {
         Self {
             lab,
             workspaces: workspace::all(),
-            current: 0,
             files,
             palette: Palette::default(),
             shortcut_sheet: ShortcutSheet::default(),
@@ -112,12 +108,16 @@ impl LabApp {
         let busy = self.files.is_asking() || self.palette.is_open();
         Panel::top("menu").show(ui, |ui| {
             menu_bar::show(&mut self.lab, &mut self.files, ui);
-            let names: Vec<&str> = self.workspaces.iter().map(|workspace| workspace.name()).collect();
-            toolbar::show(&mut self.lab, &names, &mut self.current, ui);
+            let current = self.current();
+            toolbar::show(&mut self.lab, &mut *self.workspaces[current], ui);
         });
-        Panel::bottom("status").show(ui, |ui| status_bar::show(&self.lab, ui));
+        let current = self.current();
+        let said = self.workspaces[current].status(&self.lab);
+        Panel::bottom("status").show(ui, |ui| status_bar::show(&self.lab, &said, ui));
         self.side_panels(ui);
-        let workspace = &mut self.workspaces[self.current];
+        // A click in the list of objects may have led to another room.
+        let current = self.current();
+        let workspace = &mut self.workspaces[current];
         workspace.panels(&mut self.lab, ui);
         egui::CentralPanel::default()
             .frame(egui::Frame::NONE)
@@ -133,13 +133,20 @@ impl LabApp {
         }
         self.say(ui.ctx());
         if let Some(log) = &mut self.smoke_log {
-            let (lab, workspace) = (&self.lab, &self.workspaces[self.current]);
-            log.frame(lab, &|world| workspace.screen_from_world(world, lab), ui.ctx());
+            log.frame(&self.lab, &*self.workspaces[current], ui.ctx());
         }
     }
 
+    /// Index of the workspace of the room that the lab shows.
+    fn current(&self) -> usize {
+        let room = self.lab.room();
+        self.workspaces.iter().position(|workspace| workspace.room() == room).unwrap_or(0)
+    }
+
     fn side_panels(&mut self, ui: &mut Ui) {
+        let current = self.current();
         let (lab, files) = (&mut self.lab, &mut self.files);
+        let workspace = &mut self.workspaces[current];
         // Larger type needs wider panels.
         let scale = lab.theme.text_scale as f32;
         let open = |lab: &Lab, name: &str| lab.view.panels.get(name).copied().unwrap_or(true);
@@ -168,13 +175,20 @@ impl LabApp {
                             (SidePage::Stepper, "Stepper"),
                             (SidePage::Lesson, "Lesson"),
                         ] {
+                            // Algorithms step by step are shown for curves.
+                            if page == SidePage::Stepper && lab.room() != Room::Curves {
+                                continue;
+                            }
                             ui.selectable_value(&mut lab.side, page, text);
                         }
                     });
                     ui.separator();
+                    if lab.side == SidePage::Stepper && lab.room() != Room::Curves {
+                        lab.side = SidePage::Inspector;
+                    }
                     lab.stepper.open = lab.side == SidePage::Stepper;
                     match lab.side {
-                        SidePage::Inspector => inspector::show(lab, ui),
+                        SidePage::Inspector => workspace.inspector(lab, ui),
                         SidePage::Stepper => stepper_panel::show(lab, ui),
                         SidePage::Lesson => lesson_panel::show(lab, ui),
                     }
@@ -193,6 +207,7 @@ impl LabApp {
         // A shortcut with more modifiers must be asked for first, or Ctrl+Z would answer to Ctrl+Shift+Z.
         let mut commands: Vec<Command> =
             Command::ALL.into_iter().filter(|command| command.shortcut().is_some()).collect();
+        commands.retain(|command| command.room().is_none_or(|room| room == self.lab.room()));
         commands.sort_by_key(|command| {
             command.shortcut().map_or(0, |shortcut| {
                 let keys = shortcut.modifiers;
@@ -213,8 +228,9 @@ impl LabApp {
     }
 
     fn execute(&mut self, command: Command, ctx: &egui::Context) {
+        let current = self.current();
         let lab = &mut self.lab;
-        if self.workspaces[self.current].execute(command, lab) || self.files.execute(command, lab, ctx) {
+        if self.workspaces[current].execute(command, lab) || self.files.execute(command, lab, ctx) {
             return;
         }
         match command {

@@ -8,7 +8,7 @@ use glam::DVec2;
 use crate::app::lab::{Hovered, Lab};
 use crate::app::painter::{color32, paint_note, screen_from_world};
 use crate::core::spline_curve::Nurbs;
-use crate::document::{Content, Object};
+use crate::document::Object;
 use crate::figure::composition::short_number;
 use crate::figure::picture::Viewport;
 
@@ -225,30 +225,36 @@ fn paint_part(
 /// Tells assistive programs (and tests) what can be dragged.
 pub(super) fn announce(lab: &Lab, viewport: &Viewport, rect: Rect, ui: &egui::Ui) {
     let reach = vec2(18.0, 18.0);
-    for object in lab.history.document().objects().iter().filter(|object| object.visible) {
-        let Some(curve) = object.curve() else { continue };
-        let say = |name: String, world: DVec2| {
-            let area = Rect::from_center_size(screen_from_world(viewport, rect, world), reach);
-            if rect.contains_rect(area) {
-                let id = ui.make_persistent_id((object.id.0, &name));
-                let response = ui.interact(area, id, egui::Sense::hover());
-                response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
-            }
-        };
-        if curve.points().len() <= ANNOUNCED {
-            for (index, &point) in curve.points().iter().enumerate() {
-                say(format!("Control point {index} of {}", object.name), point);
-            }
-        }
-        if lab.selection.object == Some(object.id) {
-            if let Some(at) = lab.parameter(object.id).and_then(|parameter| curve.evaluate(parameter).ok()) {
-                say(format!("Parameter of {}", object.name), at);
-            }
-            if let Some((index, bead)) = bead_place(lab, object) {
-                say(format!("Weight of control point {index} of {}", object.name), bead);
-            }
+    for (name, at) in named(lab) {
+        let area = Rect::from_center_size(screen_from_world(viewport, rect, at), reach);
+        if rect.contains_rect(area) {
+            let id = ui.make_persistent_id(("handle", &name));
+            let response = ui.interact(area, id, egui::Sense::hover());
+            response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
         }
     }
+}
+
+/// The handles of the visible curves: accessible name and place in the world.
+pub(super) fn named(lab: &Lab) -> Vec<(String, DVec2)> {
+    let mut named = Vec::new();
+    for object in lab.history.document().objects().iter().filter(|object| object.visible) {
+        let Some(curve) = object.curve() else { continue };
+        if curve.points().len() <= ANNOUNCED {
+            let points = curve.points().iter().enumerate();
+            named
+                .extend(points.map(|(index, &at)| (format!("Control point {index} of {}", object.name), at)));
+        }
+        if lab.selection.object == Some(object.id) {
+            let parameter = lab.parameter(object.id).and_then(|parameter| curve.evaluate(parameter).ok());
+            named.extend(parameter.map(|at| (format!("Parameter of {}", object.name), at)));
+            let bead = bead_place(lab, object);
+            named.extend(
+                bead.map(|(index, at)| (format!("Weight of control point {index} of {}", object.name), at)),
+            );
+        }
+    }
+    named
 }
 
 #[cfg(test)]

@@ -6,12 +6,14 @@ mod draw_tool;
 mod gesture;
 mod handles;
 mod hit;
+mod tools;
 
 use eframe::egui;
 
 use crate::app::command::Command;
 use crate::app::lab::Lab;
-use crate::app::workspace::Workspace;
+use crate::app::workspace::{Room, Workspace};
+use crate::figure::composition::short_number;
 
 pub(crate) use canvas::Canvas;
 
@@ -22,8 +24,12 @@ pub(crate) struct Curves {
 }
 
 impl Workspace for Curves {
-    fn name(&self) -> &'static str {
-        "Curves"
+    fn room(&self) -> Room {
+        Room::Curves
+    }
+
+    fn tools(&mut self, lab: &mut Lab, ui: &mut egui::Ui) {
+        tools::show(lab, ui);
     }
 
     fn panels(&mut self, lab: &mut Lab, ui: &mut egui::Ui) {
@@ -37,12 +43,27 @@ impl Workspace for Curves {
         }
     }
 
+    fn inspector(&mut self, lab: &mut Lab, ui: &mut egui::Ui) {
+        crate::app::inspector::show(lab, ui);
+    }
+
     fn canvas(&mut self, lab: &mut Lab, ui: &mut egui::Ui) {
         self.canvas.show(lab, ui);
     }
 
     fn execute(&mut self, command: Command, lab: &mut Lab) -> bool {
         self.canvas.execute(command, lab)
+    }
+
+    fn status(&self, lab: &Lab) -> String {
+        format!("{} px per unit", short_number(lab.view.camera.scale))
+    }
+
+    fn handles(&self, lab: &Lab) -> Vec<(String, egui::Pos2)> {
+        handles::named(lab)
+            .into_iter()
+            .filter_map(|(name, at)| Some((name, self.canvas.screen_from_world(at, lab)?)))
+            .collect()
     }
 
     fn screen_from_world(&self, world: glam::DVec2, lab: &Lab) -> Option<egui::Pos2> {
