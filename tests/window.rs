@@ -8,8 +8,12 @@ use glam::DVec2;
 use spline_lab::app::LabApp;
 use spline_lab::document::Document;
 
+/// Seconds from frame to frame, as on a screen: every event has a frame of its own, and two clicks must follow each
+/// other closely to be a double click.
+const FRAME: f32 = 1.0 / 60.0;
+
 fn harness(size: Vec2) -> Harness<'static, Option<LabApp>> {
-    let mut harness = Harness::builder().with_size(size).build_ui_state(
+    let mut harness = Harness::builder().with_size(size).with_step_dt(FRAME).build_ui_state(
         |ui, app: &mut Option<LabApp>| {
             let ctx = ui.ctx().clone();
             app.get_or_insert_with(|| LabApp::for_tests(&ctx)).frame(ui);
@@ -153,6 +157,7 @@ fn a_double_click_on_the_curve_inserts_a_knot_there() {
     harness.hover_at(marker);
     harness.step();
     for _ in 0..2 {
+        harness.hover_at(marker);
         harness.drag_at(marker);
         harness.drop_at(marker);
         harness.step();

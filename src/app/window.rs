@@ -63,7 +63,11 @@ impl LabApp {
 
     fn in_directories(ctx: &egui::Context, file: Option<PathBuf>, directories: Directories) -> Self {
         ctx.set_fonts(look::fonts());
-        ctx.options_mut(|options| options.zoom_with_keyboard = false);
+        ctx.options_mut(|options| {
+            options.zoom_with_keyboard = false;
+            // As most desktops have it; shorter ones fail where software draws a frame in a tenth of a second.
+            options.input_options.max_double_click_delay = 0.5;
+        });
         let (document, view) = first_scene();
         let mut lab = Lab::new(document, view);
         let files = Files::in_directories(file, &mut lab, directories);
