@@ -51,14 +51,6 @@ pub enum FiniteElementError {
         /// The largest possible value.
         limit: usize,
     },
-    /// The cut cells could not be divided into pieces with monotone sides.
-    #[error("cell ({}, {}) is still not sliced after {depth} halvings", cell[0], cell[1])]
-    CellNotSliced {
-        /// The cell.
-        cell: [usize; 2],
-        /// Number of halvings.
-        depth: usize,
-    },
     /// No B-spline has a part of its support in the domain.
     #[error("the domain contains no part of the grid's cells")]
     EmptyDomain,
@@ -185,7 +177,7 @@ impl FiniteElementError {
             Self::NonFinite { .. } => "NonFinite",
             Self::SizeMismatch { .. } => "SizeMismatch",
             Self::EmptyInterval { .. } => "EmptyInterval",
-            Self::StepLimit { .. } | Self::CellNotSliced { .. } => "StepLimit",
+            Self::StepLimit { .. } => "StepLimit",
             Self::EmptyDomain => "EmptyDomain",
             Self::NoInnerArray { .. } => "NoInnerArray",
             Self::WeightNotPositive { .. } => "WeightNotPositive",

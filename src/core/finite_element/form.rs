@@ -1,11 +1,12 @@
 //! The elliptic problem `−div(A grad u) + c u = f` in weak form.
 //!
 //! ```text
-//! a(u, v) = ∫ (grad v)ᵗ A grad u + c u v,   λ(v) = ∫ f v,
+//! a(u, v) = ∫ (grad v)ᵗ A grad u + c u v,   λ(v) = ∫ f v + F·grad v,
 //! ```
 //!
 //! with `A(x)` symmetric and positive definite and `c(x) ≥ 0`. Essential conditions `u = 0` belong to the space of functions, natural
-//! ones `(A grad u)·normal = 0` need nothing. Course: sections 9.1 and 9.3.
+//! ones `(A grad u − F)·normal = 0` need nothing. With `F = A grad u*`, `f = c u*` the solution is the
+//! projection of a given `u*` in the energy norm. Course: sections 9.1 and 9.3.
 
 use std::fmt::{self, Debug, Formatter};
 
@@ -56,6 +57,8 @@ pub struct EllipticForm<'a> {
     pub reaction: Coefficient<'a, f64>,
     /// `f`.
     pub load: Coefficient<'a, f64>,
+    /// `F`, mostly 0.
+    pub gradient_load: Coefficient<'a, DVec2>,
 }
 
 /// The checked coefficients at one point.
@@ -67,6 +70,8 @@ pub struct FormAtPoint {
     pub reaction: f64,
     /// `f`.
     pub load: f64,
+    /// `F`.
+    pub gradient_load: DVec2,
 }
 
 impl FormAtPoint {
@@ -74,13 +79,19 @@ impl FormAtPoint {
     pub fn bilinear(&self, u: &Jet, v: &Jet) -> f64 {
         v.gradient.dot(self.diffusion * u.gradient) + self.reaction * u.value * v.value
     }
+
+    /// The integrand of `λ(v)`.
+    pub fn linear(&self, v: &Jet) -> f64 {
+        self.load * v.value + self.gradient_load.dot(v.gradient)
+    }
 }
 
 impl<'a> EllipticForm<'a> {
     /// Poisson's problem `−Δu = f`.
     pub fn poisson(load: Coefficient<'a, f64>) -> Self {
         let diffusion = Coefficient::Constant(DMat2::IDENTITY);
-        Self { diffusion, reaction: Coefficient::Constant(0.0), load }
+        let gradient_load = Coefficient::Constant(DVec2::ZERO);
+        Self { diffusion, reaction: Coefficient::Constant(0.0), load, gradient_load }
     }
 
     /// Whether `A` and `c` are given as constants.
@@ -103,6 +114,7 @@ impl<'a> EllipticForm<'a> {
             diffusion: self.diffusion.at(x),
             reaction: self.reaction.at(x),
             load: self.load.at(x),
+            gradient_load: self.gradient_load.at(x),
         };
         let a = sample.diffusion;
         let finite = |what, value: f64| match value.is_finite() {
@@ -110,6 +122,7 @@ impl<'a> EllipticForm<'a> {
             false => Err(FiniteElementError::NonFinite { what, point: x, value }),
         };
         finite("the load f", sample.load)?;
+        finite("the load F", sample.gradient_load.x + sample.gradient_load.y)?;
         finite("the coefficient c", sample.reaction)?;
         for entry in a.to_cols_array() {
             finite("an entry of the coefficient A", entry)?;
