@@ -190,7 +190,7 @@ mod tests {
                 let domain = Domain::polygon(&vertices).unwrap();
                 for i in 0..45 {
                     for j in 0..45 {
-                        let x = DVec2::new(f64::from(i) - 2.0, f64::from(j) - 2.0) * 0.103;
+                        let x = DVec2::new(f64::from(i) - 2.03, f64::from(j) - 2.07) * 0.103;
                         let wanted = inside(&vertices, x);
                         assert_eq!(domain.contains(x), wanted, "shape {number}, turn {turn}, {x}");
                     }

@@ -29,9 +29,13 @@ impl Grid {
     ///
     /// # Errors
     ///
-    /// `NonFinite`, `EmptyInterval`, `StepLimit` unless `1 ≤ cells ≤` [`MAX_CELLS`].
+    /// `StepLimit` unless `1 ≤ cells ≤` [`MAX_CELLS`], `NonFinite`, `EmptyInterval`.
     pub fn new(bounds: Bounds, cells: [usize; 2]) -> Result<Self, FiniteElementError> {
         for axis in 0..2 {
+            if cells[axis] == 0 || cells[axis] > MAX_CELLS {
+                let (value, limit) = (cells[axis], MAX_CELLS);
+                return Err(FiniteElementError::StepLimit { what: "the number of cells", value, limit });
+            }
             let (left, right) = (bounds.lower[axis], bounds.upper[axis]);
             if !(right - left).is_finite() {
                 let (point, value) = (bounds.lower, right - left);
@@ -39,10 +43,6 @@ impl Grid {
             }
             if left >= right {
                 return Err(FiniteElementError::EmptyInterval { axis, left, right });
-            }
-            if cells[axis] == 0 || cells[axis] > MAX_CELLS {
-                let (value, limit) = (cells[axis], MAX_CELLS);
-                return Err(FiniteElementError::StepLimit { what: "the number of cells", value, limit });
             }
         }
         let width = bounds.size() / DVec2::new(cells[0] as f64, cells[1] as f64);
@@ -153,7 +153,7 @@ impl CellBasis {
     }
 }
 
-/// `UnitLimit` check of a degree.
+/// `StepLimit` unless `1 ≤ degree ≤` [`MAX_ELEMENT_DEGREE`].
 pub(super) fn check_degree(degree: usize) -> Result<(), FiniteElementError> {
     if (1..=MAX_ELEMENT_DEGREE).contains(&degree) {
         Ok(())

@@ -13,7 +13,7 @@ use crate::core::bspline::SplineSpace;
 use crate::core::finite_element::error::FiniteElementError;
 use crate::core::finite_element::offset_matrix::OffsetMatrix;
 use crate::core::finite_element::solver::{Method, SystemMatrix, SystemSolution, solve_system};
-use crate::core::linear_system::{LinearOperator, SparseMatrix};
+use crate::core::linear_system::SparseMatrix;
 use crate::core::progress::Watcher;
 use crate::core::quadrature::gauss_legendre;
 
