@@ -174,9 +174,8 @@ pub(crate) const CHECKS: &[(&str, fn(&Example))] = &[
     ("9.2-i", |example| {
         let ellipse = Domain::ellipse(DVec2::X, DVec2::new(3.0, 2.0), 0.0).unwrap();
         let domain = ellipse.difference(unit_disc());
-        let corners = example.points("box").into_iter().map(DVec2::to_array).collect::<Vec<_>>();
-        let lower = DVec2::new(corners[0][0], corners[1][0]);
-        let bounds = Bounds::new(lower, DVec2::new(corners[0][1], corners[1][1]));
+        let sides = example.points("box");
+        let bounds = Bounds::new(DVec2::new(sides[0].x, sides[1].x), DVec2::new(sides[0].y, sides[1].y));
         for (key, h) in [("h=1", 1.0), ("h=1/2", 0.5), ("h=1/4", 0.25)] {
             let grid = Grid::with_width(bounds, h).unwrap();
             let table = QuadratureTable::new(&domain, grid, 2, &Unwatched).unwrap();

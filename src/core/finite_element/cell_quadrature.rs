@@ -18,14 +18,14 @@ use crate::core::progress::Watcher;
 use crate::core::quadrature::{GaussRule, gauss_legendre};
 
 /// The smallest cosine between a curve's normal and the inner direction that is accepted without quartering: a curve that violates it in both
-/// directions turns by more than 23 degrees in the cell.
-const GOOD_ANGLE: f64 = 0.55;
+/// directions turns by more than 36 degrees in the cell.
+const GOOD_ANGLE: f64 = 0.45;
 
 /// Number of quarterings after which the better direction is taken in any case; the cell's area is then 6e-8 of the whole.
 const MAX_DEPTH: usize = 12;
 
 /// Parts of a piece of the outer coordinate at which the number and succession of the boundary curves are compared.
-const SAMPLES: [f64; 5] = [1e-12, 0.25, 0.5, 0.75, 1.0 - 1e-12];
+const SAMPLES: [f64; 5] = [1e-6, 0.25, 0.5, 0.75, 1.0 - 1e-6];
 
 /// Area, relative to the cell, below which a cut cell counts as outer.
 const DROPPED: f64 = 1e-14;
@@ -55,6 +55,8 @@ pub struct SlicedCell {
     pub points: Vec<QuadraturePoint>,
     /// How it was divided.
     pub slices: Vec<Slice>,
+    /// Points of the domain's boundary in the cell, where the lines through the nodes meet it.
+    pub boundary: Vec<DVec2>,
     /// Whether no boundary was met: the cell is inner.
     pub is_full: bool,
 }
@@ -76,6 +78,7 @@ pub struct QuadratureTable {
     /// The nodes of cell `i` are `starts[i]..starts[i + 1]` of `points`; only cut cells have some.
     starts: Vec<usize>,
     points: Vec<QuadraturePoint>,
+    boundary: Vec<DVec2>,
 }
 
 impl QuadratureTable {
@@ -92,37 +95,39 @@ impl QuadratureTable {
     ) -> Result<Self, FiniteElementError> {
         let rule = gauss_legendre(gauss_points)?;
         let columns = grid.cells()[1];
-        let row = |l1: usize| -> Result<Vec<(CellClass, Vec<QuadraturePoint>)>, FiniteElementError> {
+        let row = |l1: usize| -> Result<Vec<(CellClass, SlicedCell)>, FiniteElementError> {
             watcher.check(l1 as f64 / grid.cells()[0] as f64)?;
             let one = |l2: usize| {
                 let cell = grid.cell([l1, l2]);
                 match domain.classify(&cell) {
                     CellClass::Cut => {}
-                    class => return (class, Vec::new()),
+                    class => return (class, SlicedCell::default()),
                 }
                 let sliced = slice_cell(domain, &cell, &rule);
                 let area: f64 = sliced.points.iter().map(|p| p.weight).sum();
                 if sliced.is_full {
-                    (CellClass::Inner, Vec::new())
+                    (CellClass::Inner, SlicedCell::default())
                 } else if area <= DROPPED * cell.size().element_product() {
-                    (CellClass::Outer, Vec::new())
+                    (CellClass::Outer, SlicedCell::default())
                 } else {
-                    (CellClass::Cut, sliced.points)
+                    (CellClass::Cut, sliced)
                 }
             };
             Ok((0..columns).map(one).collect())
         };
         let rows: Vec<_> = (0..grid.cells()[0]).into_par_iter().map(row).collect::<Result<_, _>>()?;
-        let (mut classes, mut starts, mut points) = (Vec::new(), vec![0], Vec::new());
-        for (class, cell_points) in rows.into_iter().flatten() {
+        let (mut classes, mut starts) = (Vec::new(), vec![0]);
+        let (mut points, mut boundary) = (Vec::new(), Vec::new());
+        for (class, sliced) in rows.into_iter().flatten() {
             classes.push(class);
-            points.extend(cell_points);
+            points.extend(sliced.points);
+            boundary.extend(sliced.boundary);
             starts.push(points.len());
         }
         if classes.iter().all(|class| *class == CellClass::Outer) {
             return Err(FiniteElementError::EmptyDomain);
         }
-        Ok(Self { grid, rule, classes, starts, points })
+        Ok(Self { grid, rule, classes, starts, points, boundary })
     }
 
     /// The grid.
@@ -140,14 +145,23 @@ impl QuadratureTable {
         &self.classes
     }
 
-    /// The class of cell `l`.
+    /// The class of cell `l`; outer beyond the grid.
     pub fn class(&self, l: [usize; 2]) -> CellClass {
-        self.classes[l[0] * self.grid.cells()[1] + l[1]]
+        let [rows, columns] = self.grid.cells();
+        if l[0] < rows && l[1] < columns { self.classes[l[0] * columns + l[1]] } else { CellClass::Outer }
+    }
+
+    /// Points of the domain's boundary, a few in each cut cell.
+    pub fn boundary(&self) -> &[DVec2] {
+        &self.boundary
     }
 
     /// The nodes of the cut cell with row-major index `index`; empty for others.
     pub fn cut_points(&self, index: usize) -> &[QuadraturePoint] {
-        &self.points[self.starts[index]..self.starts[index + 1]]
+        match (self.starts.get(index), self.starts.get(index.saturating_add(1))) {
+            (Some(&from), Some(&to)) => &self.points[from..to],
+            _ => &[],
+        }
     }
 
     /// The cell with row-major index `index`.
@@ -247,8 +261,14 @@ impl Slicer<'_> {
             for (t, weight) in self.rule.on(pair[0], pair[1]) {
                 self.intervals(cell, inner, t, &mut scratch);
                 for interval in &scratch.intervals {
+                    let place = |s: f64| if inner == 0 { DVec2::new(s, t) } else { DVec2::new(t, s) };
+                    for (end, curve) in [interval.from, interval.to].into_iter().zip(interval.curves) {
+                        if curve != CELL_SIDE {
+                            sliced.boundary.push(place(end));
+                        }
+                    }
                     for (s, inner_weight) in self.rule.on(interval.from, interval.to) {
-                        let point = if inner == 0 { DVec2::new(s, t) } else { DVec2::new(t, s) };
+                        let point = place(s);
                         sliced.points.push(QuadraturePoint { point, weight: weight * inner_weight });
                     }
                 }

@@ -27,11 +27,13 @@ use crate::core::finite_element::form::EllipticForm;
 use crate::core::finite_element::grid::Grid;
 use crate::core::finite_element::offset_matrix::OffsetMatrix;
 use crate::core::finite_element::ritz_galerkin::GalerkinSystem;
-use crate::core::finite_element::solver::{Method, SystemSolution, solve_system, solve_up_to_a_constant};
+use crate::core::finite_element::solver::{
+    Method, SystemMatrix as _, SystemSolution, solve_system, solve_up_to_a_constant,
+};
 use crate::core::finite_element::web_spline::{NodeArray, NodeClass};
 use crate::core::finite_element::weight_function::Weight;
 use crate::core::finite_element::weighted_bspline::{WeightedSpace, is_relevant};
-use crate::core::linear_system::{IterationLimits, LinearSystemError, SparseMatrix};
+use crate::core::linear_system::{DenseMatrix, IterationLimits, LinearSystemError, SparseMatrix};
 use crate::core::progress::{Part, Watcher};
 
 /// A boundary value problem.
@@ -92,7 +94,12 @@ impl Discretisation {
     ///
     /// `NonFinite` for an unbounded domain without a box, `EmptyInterval`, `StepLimit`.
     pub fn grid(&self, domain: &Domain) -> Result<Grid, FiniteElementError> {
-        Grid::with_width(self.bounds.unwrap_or_else(|| domain.bounds()), self.width)
+        let bounds = self.bounds.unwrap_or_else(|| domain.bounds());
+        if !bounds.is_finite() {
+            let (point, value) = (bounds.lower, bounds.size().element_sum());
+            return Err(FiniteElementError::NonFinite { what: "the box of the domain", point, value });
+        }
+        Grid::with_width(bounds, self.width)
     }
 }
 
@@ -152,7 +159,7 @@ impl WeightedSystem {
         let space = &self.space;
         let weight_at = |cell| space.weight().at(space.grid().cell(cell).center()).value;
         let extension = space.nodes().web_matrix(weight_at)?;
-        let sparse = crate::core::finite_element::solver::SystemMatrix::to_sparse(&self.system.matrix)?;
+        let sparse = self.system.matrix.to_sparse()?;
         let matrix = extension.times(&sparse)?.times(&extension.transpose())?;
         let mut load = vec![0.0; extension.rows()];
         extension.multiply(&self.system.load, &mut load)?;
@@ -356,11 +363,14 @@ fn free(nodes: &NodeArray<2>) -> Vec<bool> {
     nodes.classes().iter().map(|class: &NodeClass| is_relevant(*class)).collect()
 }
 
+/// The largest matrix whose eigenvalues are computed: beyond it they take minutes.
+const MAX_DENSE: usize = 3000;
+
 /// The spectral condition number of a matrix, optionally scaled to a unit diagonal, over the rows that are `kept`.
 ///
 /// # Errors
 ///
-/// `SizeMismatch`, `NotPositiveDefinite` if an eigenvalue or, for scaling, a diagonal entry is not positive, `NotConverged`.
+/// `StepLimit` above 3000 rows, `NotPositiveDefinite` if an eigenvalue or, for scaling, a diagonal entry is not positive, `NotConverged`.
 pub fn condition_number(
     matrix: &SparseMatrix,
     kept: &[bool],
@@ -368,8 +378,11 @@ pub fn condition_number(
 ) -> Result<f64, FiniteElementError> {
     let rows: Vec<usize> =
         (0..matrix.rows()).filter(|row| kept.get(*row).copied().unwrap_or(false)).collect();
+    if rows.len() > MAX_DENSE {
+        return Err(LinearSystemError::StepLimit { size: rows.len() }.into());
+    }
     let scale = |k: usize| if scaled { matrix.entry(k, k).sqrt().recip() } else { 1.0 };
-    let dense = crate::core::linear_system::DenseMatrix::from_function(rows.len(), rows.len(), |i, j| {
+    let dense = DenseMatrix::from_function(rows.len(), rows.len(), |i, j| {
         scale(rows[i]) * matrix.entry(rows[i], rows[j]) * scale(rows[j])
     })?;
     let eigenvalues = dense.symmetric_eigenvalues()?;
@@ -379,5 +392,164 @@ pub fn condition_number(
             let (what, index, value) = ("eigenvalue", 0, min.copied().unwrap_or(f64::NAN));
             Err(LinearSystemError::NotPositiveDefinite { what, index, value }.into())
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
+    use glam::DMat2;
+
+    use super::*;
+    use crate::core::finite_element::form::Coefficient;
+    use crate::core::progress::Unwatched;
+
+    fn half_disc() -> Domain {
+        let disc = Domain::disc(DVec2::ZERO, 1.0).unwrap();
+        disc.intersection(Domain::half_plane(DVec2::ZERO, DVec2::Y).unwrap())
+    }
+
+    /// The product of the levels, smooth also at the corners.
+    fn half_disc_weight(x: DVec2) -> Jet {
+        let d = 1.0 - x.length_squared();
+        Jet { value: x.y * d, gradient: DVec2::new(-2.0 * x.x * x.y, d - 2.0 * x.y * x.y) }
+    }
+
+    fn exact(x: DVec2) -> Jet {
+        let (w, g) = (half_disc_weight(x), (2.0 * x.x).sin() + x.y);
+        let slope = DVec2::new(2.0 * (2.0 * x.x).cos(), 1.0);
+        Jet { value: w.value * g, gradient: w.gradient * g + slope * w.value }
+    }
+
+    fn diffusion(x: DVec2) -> DMat2 {
+        DMat2::from_cols_array(&[2.0 + x.x, 0.3, 0.3, 1.5])
+    }
+
+    /// The loads that make [`exact`] the solution with [`diffusion`] and c = 1 + y.
+    fn manufactured<'a>(
+        flux: &'a (dyn Fn(DVec2) -> DVec2 + Sync),
+        f: &'a (dyn Fn(DVec2) -> f64 + Sync),
+    ) -> EllipticForm<'a> {
+        EllipticForm {
+            diffusion: Coefficient::Function(&diffusion),
+            reaction: Coefficient::Function(&|x| 1.0 + x.y),
+            load: Coefficient::Function(f),
+            gradient_load: Coefficient::Function(flux),
+        }
+    }
+
+    #[test]
+    fn errors_fall_with_the_rates_n_plus_1_and_n_for_variable_coefficients() {
+        let (flux, f) = (|x| diffusion(x) * exact(x).gradient, |x: DVec2| (1.0 + x.y) * exact(x).value);
+        let form = manufactured(&flux, &f);
+        let domain = half_disc();
+        let problem = Problem { domain: &domain, weight: Weight::function(half_disc_weight), form };
+        for degree in 1..=3 {
+            let settings = Discretisation { method: Method::Direct, ..Discretisation::new(degree, 0.25) };
+            let study =
+                convergence_study(&problem, &exact, &settings, &[0.2, 0.1, 0.05], &Unwatched).unwrap();
+            let (n, last) = (degree as f64, study.l2_rates.len() - 1);
+            assert!(
+                (study.l2_rates[last] - n - 1.0).abs() < 0.2,
+                "degree {degree}, L2: {:?}",
+                study.l2_rates
+            );
+            assert!((study.h1_rates[last] - n).abs() < 0.2, "degree {degree}, H1: {:?}", study.h1_rates);
+        }
+    }
+
+    #[test]
+    fn weighted_polynomials_are_their_own_projection_whatever_the_quadrature() {
+        let polynomial = |x: DVec2| Jet {
+            value: 1.0 + x.x - 2.0 * x.x * x.y,
+            gradient: DVec2::new(1.0 - 2.0 * x.y, -2.0 * x.x),
+        };
+        let u = |x: DVec2| {
+            let (w, q) = (half_disc_weight(x), polynomial(x));
+            Jet { value: w.value * q.value, gradient: w.gradient * q.value + q.gradient * w.value }
+        };
+        let (flux, f) = (|x| diffusion(x) * u(x).gradient, |x: DVec2| (1.0 + x.y) * u(x).value);
+        let domain = half_disc();
+        let form = manufactured(&flux, &f);
+        let problem = Problem { domain: &domain, weight: Weight::function(half_disc_weight), form };
+        for basis in [Basis::Weighted, Basis::Web] {
+            let settings = Discretisation {
+                basis,
+                gauss_points: 3,
+                method: Method::Direct,
+                ..Discretisation::new(2, 0.17)
+            };
+            let solution = solve_problem(&problem, &settings, None, &Unwatched).unwrap();
+            let errors = solution.errors(&u).unwrap();
+            // Web-splines only contain w q if w(xᵢ) does not spoil the coefficients: it does not, it scales the basis.
+            assert!(errors.relative_l2() < 1e-11, "{basis:?}: {errors:?}");
+        }
+    }
+
+    #[test]
+    fn the_solution_vanishes_on_the_boundary_and_does_not_depend_on_the_number_of_threads() {
+        let domain = half_disc();
+        let load = |x: DVec2| x.x.exp();
+        let form = EllipticForm::poisson(Coefficient::Function(&load));
+        let problem = Problem { domain: &domain, weight: Weight::OfDomain(domain.clone()), form };
+        let settings = Discretisation::new(2, 0.1);
+        let solve = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| solve_problem(&problem, &settings, None, &Unwatched).unwrap())
+        };
+        let one = solve(1);
+        assert_eq!(one.coefficients, solve(3).coefficients, "bit for bit");
+        assert!(one.system_is_positive(&form), "matrix");
+        for &x in one.space.table().boundary() {
+            let inside = x * (1.0 - 1e-12) + 1e-12 * DVec2::new(0.0, 0.5);
+            let value = one.evaluate(inside).unwrap().value;
+            assert!(value.abs() < 1e-10, "{value} at the boundary point {x}");
+        }
+    }
+
+    impl WeightedSolution {
+        fn system_is_positive(&self, form: &EllipticForm<'_>) -> bool {
+            let system = WeightedSystem::in_space(self.space.clone(), form, &Unwatched).unwrap();
+            let sparse = system.system.matrix.to_sparse().unwrap();
+            system.system.matrix.is_symmetric(0.0) && sparse.cholesky().is_ok()
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_solved_is_named() {
+        let domain = half_disc();
+        let problem = |weight: Weight, form| Problem { domain: &domain, weight, form };
+        let essential = || Weight::OfDomain(domain.clone());
+        let poisson = |f: f64| EllipticForm::poisson(Coefficient::Constant(f));
+        let name = |problem: &Problem<'_>, settings: &Discretisation| {
+            solve_problem(problem, settings, None, &Unwatched).map_or_else(|error| error.name(), |_| "ok")
+        };
+        let settings = Discretisation::new(2, 0.25);
+        assert_eq!(
+            name(&problem(Weight::One, poisson(1.0)), &settings),
+            "IncompatibleData",
+            "load without balance"
+        );
+        let web = Discretisation { basis: Basis::Web, ..settings };
+        assert_eq!(name(&problem(Weight::One, poisson(0.0)), &web), "SingularSystem", "free web-splines");
+        assert_eq!(
+            name(&problem(essential(), poisson(1.0)), &Discretisation { width: 1.0, ..web }),
+            "NoInnerArray",
+            "coarse"
+        );
+        assert_eq!(name(&problem(essential(), poisson(f64::NAN)), &settings), "NonFinite", "load");
+        let form = EllipticForm { reaction: Coefficient::Constant(-1.0), ..poisson(1.0) };
+        assert_eq!(name(&problem(essential(), form), &settings), "NotElliptic", "reaction");
+        assert_eq!(
+            name(&problem(essential(), poisson(1.0)), &Discretisation { degree: 0, ..settings }),
+            "StepLimit",
+            "degree 0"
+        );
+        let plane = Domain::half_plane(DVec2::ZERO, DVec2::X).unwrap();
+        let unbounded = Problem { domain: &plane, weight: Weight::One, form: poisson(0.0) };
+        assert_eq!(name(&unbounded, &settings), "NonFinite", "unbounded domain");
+        let stopped = solve_problem(&problem(essential(), poisson(1.0)), &settings, None, &|done| done < 0.5);
+        assert_eq!(stopped.unwrap_err().name(), "Stopped", "the watcher stops half way");
     }
 }

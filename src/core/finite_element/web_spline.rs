@@ -112,19 +112,36 @@ impl<const D: usize> NodeArray<D> {
             indices([self.degree + 1; D])
                 .all(|offset| self.classes[flat(add(*l, offset), shape)] == NodeClass::Inner)
         };
-        let arrays: Vec<[usize; D]> = indices(self.cells).filter(all_inner).collect();
+        let arrays: Vec<bool> = indices(self.cells).map(|l| all_inner(&l)).collect();
+        // Without any array there is nothing to search for.
+        let farthest = if arrays.contains(&true) { self.shape().into_iter().max().unwrap_or(0) } else { 0 };
         let join = |outer: [usize; D]| {
-            // Four times the squared distance, an integer; the first one of equals is the smallest.
+            // Four times the squared distance, an integer; of equal ones the smallest array.
             let distance = |l: &[usize; D]| -> usize {
                 (0..D).map(|axis| (2 * l[axis] + self.degree).abs_diff(2 * outer[axis]).pow(2)).sum()
             };
-            match arrays.iter().min_by_key(|l| distance(l)) {
-                Some(&array) => Ok(Joined { outer, array }),
-                None => {
-                    let index = [outer[0], outer.get(1).copied().unwrap_or(0)];
-                    Err(FiniteElementError::NoInnerArray { index })
+            // Rings of arrays around the nearest place: those of the next ring are at least `(2 radius − 1)²` away.
+            let middle = outer.map(|j| j as isize - (self.degree / 2) as isize);
+            let mut best: Option<(usize, [usize; D])> = None;
+            for radius in 0..=farthest + self.degree {
+                if best.is_some_and(|(distance, _)| (2 * radius).saturating_sub(1).pow(2) > distance) {
+                    break;
+                }
+                for offset in indices([2 * radius + 1; D]) {
+                    let on_ring = offset.iter().any(|o| *o == 0 || *o == 2 * radius);
+                    let l: [usize; D] = std::array::from_fn(|axis| {
+                        let place = middle[axis] + offset[axis] as isize - radius as isize;
+                        usize::try_from(place).unwrap_or(usize::MAX)
+                    });
+                    if on_ring && (0..D).all(|axis| l[axis] < self.cells[axis]) && arrays[flat(l, self.cells)]
+                    {
+                        let candidate = (distance(&l), l);
+                        best = Some(best.map_or(candidate, |best| best.min(candidate)));
+                    }
                 }
             }
+            let index = [outer[0], outer.get(1).copied().unwrap_or(0)];
+            best.map(|(_, array)| Joined { outer, array }).ok_or(FiniteElementError::NoInnerArray { index })
         };
         self.of_class(NodeClass::Outer).into_iter().map(join).collect()
     }
@@ -254,6 +271,26 @@ mod tests {
                 let value: f64 =
                     entries.iter().map(|(place, e)| e * polynomial([place / columns, place % columns])).sum();
                 assert!((value - polynomial(one.outer)).abs() < 1e-7, "degree {degree}, {one:?}: {value}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_nearest_array_is_that_of_a_search_through_all() {
+        for degree in 1..=3 {
+            let nodes = pattern(degree);
+            let inner = |l: &[usize; 2]| {
+                indices([degree + 1; 2]).all(|o| nodes.classes()[nodes.place(add(*l, o))] == NodeClass::Inner)
+            };
+            let arrays: Vec<[usize; 2]> = indices([12, 11]).filter(inner).collect();
+            for joined in nodes.join().unwrap() {
+                let distance = |l: &[usize; 2]| -> i64 {
+                    (0..2)
+                        .map(|a| (2 * l[a] as i64 + degree as i64 - 2 * joined.outer[a] as i64).pow(2))
+                        .sum()
+                };
+                let nearest = arrays.iter().min_by_key(|l| (distance(l), **l)).unwrap();
+                assert_eq!(&joined.array, nearest, "degree {degree}, outer {:?}", joined.outer);
             }
         }
     }

@@ -7,7 +7,7 @@
 
 use glam::DVec2;
 
-use crate::core::domain::{Domain, Jet};
+use crate::core::domain::{CellClass, Domain, Jet};
 use crate::core::finite_element::assembly::{ElementSamples, ElementSource};
 use crate::core::finite_element::cell_quadrature::{QuadratureTable, tensor_points};
 use crate::core::finite_element::error::FiniteElementError;
@@ -33,7 +33,7 @@ impl WeightedSpace {
     ///
     /// # Errors
     ///
-    /// `StepLimit` (degree, points), `Empty` (points), `EmptyDomain`, `Stopped`.
+    /// `StepLimit` (degree, points), `Empty` (points), `EmptyDomain`, `DegenerateWeight`, `Stopped`.
     pub fn new(
         domain: Domain,
         weight: Weight,
@@ -44,6 +44,7 @@ impl WeightedSpace {
     ) -> Result<Self, FiniteElementError> {
         check_degree(degree)?;
         let table = QuadratureTable::new(&domain, grid, gauss_points, watcher)?;
+        check_slopes(&weight, &table)?;
         let nodes = NodeArray::new(grid.cells(), degree, |cell| table.class(cell));
         let gauss_basis = table.rule().nodes().iter().map(|t| CellBasis::new(degree, *t)).collect();
         Ok(Self { degree, domain, weight, table, nodes, gauss_basis })
@@ -85,11 +86,8 @@ impl WeightedSpace {
         self.grid().bounds().lower + self.grid().width() * place
     }
 
-    /// Value and gradient at `x` of the function with these coefficients; `None` outside the domain or the grid.
-    ///
-    /// # Panics
-    ///
-    /// Never for as many coefficients as B-splines; fewer are read as 0.
+    /// Value and gradient at `x` of the function with these coefficients, missing ones read as 0; `None` outside the
+    /// domain or the grid.
     pub fn evaluate(&self, coefficients: &[f64], x: DVec2) -> Option<Jet> {
         let (cell, local) = self.grid().locate(x)?;
         if !self.domain.contains(x) {
@@ -179,6 +177,28 @@ impl WeightedSpace {
     }
 }
 
+/// Part of the largest weight below which a weight, or its change over a cell, counts as zero.
+const VANISHING: f64 = 1e-9;
+
+/// `DegenerateWeight` at a point of the boundary where both the weight and its gradient vanish.
+fn check_slopes(weight: &Weight, table: &QuadratureTable) -> Result<(), FiniteElementError> {
+    if weight.is_one() {
+        return Ok(());
+    }
+    let cells = 0..table.classes().len();
+    let centers = cells.filter(|cell| table.classes()[*cell] != CellClass::Outer);
+    let at_center = centers.map(|cell| weight.at(table.grid().cell(table.cell_of(cell)).center()).value);
+    let vanishing = VANISHING * at_center.fold(0.0, |max: f64, value| max.max(value.abs()));
+    for &point in table.boundary() {
+        let jet = weight.at(point);
+        let change = jet.gradient.length() * table.grid().width().max_element();
+        if jet.value.abs() <= vanishing && change <= vanishing {
+            return Err(FiniteElementError::DegenerateWeight { point });
+        }
+    }
+    Ok(())
+}
+
 fn product(a: Jet, b: Jet) -> Jet {
     Jet { value: a.value * b.value, gradient: a.gradient * b.value + b.gradient * a.value }
 }
@@ -193,7 +213,6 @@ impl ElementSource for WeightedSpace {
     }
 
     fn write_element(&self, element: usize, samples: &mut ElementSamples) -> Result<(), FiniteElementError> {
-        use crate::core::domain::CellClass;
         let class = self.table.classes()[element];
         if class == CellClass::Outer {
             return Ok(());
@@ -227,4 +246,88 @@ impl ElementSource for WeightedSpace {
 /// Whether a coefficient belongs to the space.
 pub(super) fn is_relevant(class: NodeClass) -> bool {
     class != NodeClass::Irrelevant
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
+    use super::*;
+    use crate::core::domain::Bounds;
+    use crate::core::progress::Unwatched;
+
+    fn space(weight: Weight, degree: usize) -> Result<WeightedSpace, FiniteElementError> {
+        let disc = Domain::disc(DVec2::ZERO, 1.0).unwrap();
+        let grid = Grid::new(Bounds::new(DVec2::splat(-1.1), DVec2::splat(1.1)), [7, 6]).unwrap();
+        WeightedSpace::new(disc, weight, grid, degree, degree + 2, &Unwatched)
+    }
+
+    fn disc_weight() -> Weight {
+        Weight::OfDomain(Domain::disc(DVec2::ZERO, 1.0).unwrap())
+    }
+
+    #[test]
+    fn equal_coefficients_give_the_weight_itself() {
+        for degree in 1..=5 {
+            let space = space(disc_weight(), degree).unwrap();
+            let ones = vec![1.0; space.function_count()];
+            for x in [DVec2::new(0.3, -0.4), DVec2::new(-0.9, 0.1), DVec2::ZERO] {
+                let (got, wanted) = (space.evaluate(&ones, x).unwrap(), space.weight().at(x));
+                assert!((got.value - wanted.value).abs() < 1e-14, "degree {degree}, value at {x}");
+                assert!((got.gradient - wanted.gradient).length() < 1e-13, "degree {degree}, slope at {x}");
+            }
+            assert_eq!(space.evaluate(&ones, DVec2::new(0.8, 0.8)), None, "outside");
+        }
+    }
+
+    #[test]
+    fn samples_of_an_element_are_the_functions_evaluated() {
+        let space = space(disc_weight(), 3).unwrap();
+        let coefficients: Vec<f64> =
+            (0..space.function_count()).map(|k| ((k * k) % 7) as f64 - 3.0).collect();
+        let mut samples = ElementSamples::default();
+        for element in 0..space.element_count() {
+            samples.clear();
+            space.write_element(element, &mut samples).unwrap();
+            for (p, &x) in samples.points.iter().enumerate() {
+                let (got, wanted) =
+                    (samples.combine(p, &coefficients), space.evaluate(&coefficients, x).unwrap());
+                assert!((got.value - wanted.value).abs() < 1e-13, "value at {x}");
+                assert!((got.gradient - wanted.gradient).length() < 1e-12, "gradient at {x}");
+            }
+        }
+    }
+
+    #[test]
+    fn values_on_a_lattice_are_those_at_its_points() {
+        let space = space(disc_weight(), 2).unwrap();
+        let coefficients: Vec<f64> = (0..space.function_count()).map(|k| k as f64).collect();
+        let mut values = vec![0.0; 15];
+        space.write_values(&coefficients, 5, 3, &mut values).unwrap();
+        assert!(values[0].is_nan(), "a corner of the box is outside");
+        let middle = space.evaluate(&coefficients, DVec2::ZERO).unwrap().value;
+        assert!((values[7] - middle).abs() < 1e-12, "middle: {} and {middle}", values[7]);
+        assert_eq!(
+            space.write_values(&coefficients, 5, 4, &mut values).unwrap_err().name(),
+            "SizeMismatch",
+            "15 places"
+        );
+    }
+
+    #[test]
+    fn weights_that_are_not_positive_or_have_no_slope_are_named() {
+        let square = |x: DVec2| {
+            let d = 1.0 - x.length_squared();
+            Jet { value: d * d, gradient: -4.0 * d * x }
+        };
+        assert_eq!(space(Weight::function(square), 2).unwrap_err().name(), "DegenerateWeight", "double zero");
+        let negative = Weight::function(|x| Jet { value: x.x - 0.1, gradient: DVec2::X });
+        let space = space(negative, 2).unwrap();
+        let mut samples = ElementSamples::default();
+        let names: Vec<_> = (0..space.element_count())
+            .filter_map(|element| space.write_element(element, &mut samples).err())
+            .map(|error| error.name())
+            .collect();
+        assert!(!names.is_empty() && names.iter().all(|name| *name == "WeightNotPositive"), "{names:?}");
+    }
 }
