@@ -1,7 +1,8 @@
-//! Weighted B-splines on a domain with a curved boundary that is being dragged: an ellipse with a moving round hole, 40 × 40 cells of degree 2.
+//! Weighted B-splines on a domain with a curved boundary that is being dragged: an ellipse with a moving round
+//! hole, 40 × 40 cells of degree 2.
 //!
-//! One JSON line for each measurement: the whole solution after a move (cells, quadrature, matrix, solution), its parts, and a new load in the old domain.
-//! `cpu_…` is not measured and repeats the wall time.
+//! One JSON line for each measurement: the whole solution after a move (cells, quadrature, matrix, solution),
+//! its parts, and a new load in the old domain. `cpu_…` is not measured and repeats the wall time.
 
 #![allow(
     clippy::unwrap_used,

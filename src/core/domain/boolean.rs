@@ -70,7 +70,8 @@ impl Domain {
         Ok(strip(DVec2::X)?.intersection(strip(DVec2::Y)?))
     }
 
-    /// The region where `level` is positive; `bounds` is a box that contains it. A value that is not finite counts as outside.
+    /// The region where `level` is positive; `bounds` is a box that contains it. A value that is not finite
+    /// counts as outside.
     ///
     /// # Errors
     ///
@@ -131,7 +132,8 @@ impl Domain {
 
     /// How `cell` lies to the domain.
     ///
-    /// Cells are called cut also where boundaries of leaves meet that are not boundaries of the domain, as inside a union.
+    /// Cells are called cut also where boundaries of leaves meet that are not boundaries of the domain, as
+    /// inside a union.
     pub fn classify(&self, cell: &Bounds) -> CellClass {
         match self {
             Self::Primitive(primitive) => primitive.classify(cell),

@@ -1,8 +1,9 @@
 //! Polygons as Boolean trees of half planes.
 //!
-//! A convex polygon is the intersection of the half planes of its sides. Any other one is the intersection for its convex hull minus its pockets:
-//! a pocket lies between a side of the hull that is not a side of the polygon and the chain of sides that it skips, and is a polygon again, whose side
-//! on the hull needs no half plane of its own. Every side of the polygon enters exactly once.
+//! A convex polygon is the intersection of the half planes of its sides. Any other one is the intersection for
+//! its convex hull minus its pockets: a pocket lies between a side of the hull that is not a side of the
+//! polygon and the chain of sides that it skips, and is a polygon again, whose side on the hull needs no half
+//! plane of its own. Every side of the polygon enters exactly once.
 //!
 //! S. Tor, A. Middleditch, *Convex decomposition of simple polygons*, 1984.
 
@@ -17,8 +18,8 @@ impl Domain {
     ///
     /// # Errors
     ///
-    /// `TooFewData` below 3 vertices, `NonFinite` (index of the coordinate), `Degenerate` (a side without length, or no area), `NoSolution` when two sides
-    /// meet elsewhere than at a common end.
+    /// `TooFewData` below 3 vertices, `NonFinite` (index of the coordinate), `Degenerate` (a side without
+    /// length, or no area), `NoSolution` when two sides meet elsewhere than at a common end.
     pub fn polygon(vertices: &[DVec2]) -> Result<Self, DomainError> {
         let count = vertices.len();
         if count < 3 {
@@ -61,7 +62,8 @@ impl Domain {
     }
 }
 
-/// The points to the left of a chain with the given corners of its convex hull, correct on the hull's side of its ends.
+/// The points to the left of a chain with the given corners of its convex hull, correct on the hull's side of
+/// its ends.
 fn left_of_chain(chain: &[DVec2], corners: &[usize]) -> Result<Domain, DomainError> {
     let mut region: Option<Domain> = None;
     for pair in corners.windows(2) {

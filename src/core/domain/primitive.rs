@@ -49,7 +49,8 @@ enum Shape {
     },
 }
 
-/// Samples of an implicit level per cell side and along a line through a cell: features smaller than a part can be missed.
+/// Samples of an implicit level per cell side and along a line through a cell: features smaller than a part can
+/// be missed.
 const IMPLICIT_SAMPLES: usize = 8;
 
 /// A cell whose boundary distance is below this part of the coordinates' size is not cut.
@@ -282,7 +283,8 @@ fn distance_to_origin(a: DVec2, b: DVec2) -> f64 {
     (a + t * side).length()
 }
 
-/// A place between `left` and `right` where `level` changes its sign, to rounding (bisection with secants, the Illinois variant).
+/// A place between `left` and `right` where `level` changes its sign, to rounding (bisection with secants, the
+/// Illinois variant).
 fn sign_change(
     level: &impl Fn(f64) -> f64,
     mut left: f64,

@@ -4,7 +4,8 @@
 //! gₖₖ' = Σ over elements Σ over nodes of ω (grad Bₖ)ᵗ A grad Bₖ' + c Bₖ Bₖ',   fₖ = Σ Σ ω (f Bₖ + F·grad Bₖ).
 //! ```
 //!
-//! Elements are worked on in parallel and added one after the other, so that the result does not depend on the number of threads.
+//! Elements are worked on in parallel and added one after the other, so that the result does not depend on the
+//! number of threads.
 //!
 //! Course: section 9.4.
 

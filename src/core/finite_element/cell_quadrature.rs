@@ -1,10 +1,12 @@
 //! Quadrature for the part of a grid's cells that lies in a domain.
 //!
-//! An inner cell takes a tensor product of Gauss rules. A cut cell is sliced: an outer coordinate is broken where the boundary crosses the sides of the cell, where it has
-//! corners, and where it turns back; between breaks, each line of constant outer coordinate meets the boundary in places that depend smoothly on that
-//! coordinate. They are found to rounding, and Gauss rules in both directions keep the accuracy of smooth integrands. The inner direction is the one in which the boundary is
-//! crossed at the better angle. Where a curve runs nearly along both, over too large a turn, the cell is quartered (R. Saye, *High-order quadrature methods for implicitly defined
-//! surfaces and volumes in hyperrectangles*, 2015).
+//! An inner cell takes a tensor product of Gauss rules. A cut cell is sliced: an outer coordinate is broken
+//! where the boundary crosses the sides of the cell, where it has corners, and where it turns back; between
+//! breaks, each line of constant outer coordinate meets the boundary in places that depend smoothly on that
+//! coordinate. They are found to rounding, and Gauss rules in both directions keep the accuracy of smooth
+//! integrands. The inner direction is the one in which the boundary is crossed at the better angle. Where a
+//! curve runs nearly along both, over too large a turn, the cell is quartered (R. Saye, *High-order quadrature
+//! methods for implicitly defined surfaces and volumes in hyperrectangles*, 2015).
 //!
 //! All weights are positive and all nodes lie in the domain. Course: section 9.4.
 
@@ -17,11 +19,12 @@ use crate::core::finite_element::grid::Grid;
 use crate::core::progress::Watcher;
 use crate::core::quadrature::{GaussRule, gauss_legendre};
 
-/// The smallest cosine between a curve's normal and the inner direction that is accepted without quartering: a curve that violates it in both
-/// directions turns by more than 36 degrees in the cell.
+/// The smallest cosine between a curve's normal and the inner direction that is accepted without quartering: a
+/// curve that violates it in both directions turns by more than 36 degrees in the cell.
 const GOOD_ANGLE: f64 = 0.45;
 
-/// Number of quarterings after which the better direction is taken in any case; the cell's area is then 6e-8 of the whole.
+/// Number of quarterings after which the better direction is taken in any case; the cell's area is then 6e-8 of
+/// the whole.
 const MAX_DEPTH: usize = 12;
 
 /// Parts of a piece of the outer coordinate at which the number and succession of the boundary curves are compared.
@@ -345,7 +348,8 @@ impl Slicer<'_> {
         }
     }
 
-    /// The smallest cosine between the normal of a curved boundary and the inner direction at the ends of the intervals.
+    /// The smallest cosine between the normal of a curved boundary and the inner direction at the ends of the
+    /// intervals.
     fn worst_angle(&self, inner: usize, t: f64, intervals: &[Interval]) -> f64 {
         let mut worst = 1.0f64;
         for interval in intervals {

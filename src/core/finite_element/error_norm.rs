@@ -73,7 +73,8 @@ impl ErrorNorms {
     }
 }
 
-/// Observed rates between neighbours: one fewer than errors; not a number where an error or a width is not positive.
+/// Observed rates between neighbours: one fewer than errors; not a number where an error or a width is not
+/// positive.
 pub fn convergence_rates(widths: &[f64], errors: &[f64]) -> Vec<f64> {
     let pairs = widths.windows(2).zip(errors.windows(2));
     pairs

@@ -4,9 +4,9 @@
 //! a(u, v) = ∫ (grad v)ᵗ A grad u + c u v,   λ(v) = ∫ f v + F·grad v,
 //! ```
 //!
-//! with `A(x)` symmetric and positive definite and `c(x) ≥ 0`. Essential conditions `u = 0` belong to the space of functions, natural
-//! ones `(A grad u − F)·normal = 0` need nothing. With `F = A grad u*`, `f = c u*` the solution is the
-//! projection of a given `u*` in the energy norm. Course: sections 9.1 and 9.3.
+//! with `A(x)` symmetric and positive definite and `c(x) ≥ 0`. Essential conditions `u = 0` belong to the space
+//! of functions, natural ones `(A grad u − F)·normal = 0` need nothing. With `F = A grad u*`, `f = c u*` the
+//! solution is the projection of a given `u*` in the energy norm. Course: sections 9.1 and 9.3.
 
 use std::fmt::{self, Debug, Formatter};
 
@@ -108,7 +108,8 @@ impl<'a> EllipticForm<'a> {
     ///
     /// # Errors
     ///
-    /// `NonFinite`; `NotElliptic` if `A` is not symmetric (to `1e-12` of its size) and positive definite, or `c < 0`.
+    /// `NonFinite`; `NotElliptic` if `A` is not symmetric (to `1e-12` of its size) and positive definite, or `c
+    /// < 0`.
     pub fn at(&self, x: DVec2) -> Result<FormAtPoint, FiniteElementError> {
         let sample = FormAtPoint {
             diffusion: self.diffusion.at(x),

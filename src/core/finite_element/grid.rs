@@ -1,7 +1,8 @@
 //! A grid of equal cells, and the uniform B-splines on it.
 //!
-//! Cell `l = (l₁, l₂)` is `lower + width·[l, l + 1]`; of degree `n` there are `mᵥ = Nᵥ + n` B-splines in direction ν, and those with `l ≤ k ≤ l + n` do not vanish on
-//! cell `l`. Arrays are row-major: `(k₁, k₂)` stands at `k₁ m₂ + k₂`.
+//! Cell `l = (l₁, l₂)` is `lower + width·[l, l + 1]`; of degree `n` there are `mᵥ = Nᵥ + n` B-splines in
+//! direction ν, and those with `l ≤ k ≤ l + n` do not vanish on cell `l`. Arrays are row-major: `(k₁, k₂)`
+//! stands at `k₁ m₂ + k₂`.
 //!
 //! Course: sections 4.4 and 9.2.
 
@@ -49,7 +50,8 @@ impl Grid {
         Ok(Self { bounds, cells, width })
     }
 
-    /// Square cells of width `h` from the lower corner of `bounds`; the last ones may reach beyond its upper corner.
+    /// Square cells of width `h` from the lower corner of `bounds`; the last ones may reach beyond its upper
+    /// corner.
     ///
     /// # Errors
     ///
@@ -93,7 +95,8 @@ impl Grid {
         Bounds::new(self.knot(l), self.knot([l[0] + 1, l[1] + 1]))
     }
 
-    /// The cell that contains `x`, with the local coordinates in `[0, 1]`; `None` outside. The last cells are closed.
+    /// The cell that contains `x`, with the local coordinates in `[0, 1]`; `None` outside. The last cells are
+    /// closed.
     pub fn locate(&self, x: DVec2) -> Option<([usize; 2], DVec2)> {
         let scaled = (x - self.bounds.lower) / self.width;
         let mut cell = [0; 2];

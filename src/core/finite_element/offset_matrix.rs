@@ -5,7 +5,8 @@
 //! ```
 //!
 //! row-major in `k`, and for each `k` row-major in `s`: for `d = 2` entry `(k, s)` stands at
-//! `((k₁ m₂ + k₂)(2n + 1) + s₁ + n)(2n + 1) + s₂ + n`. Places with `k + s` outside the array hold 0. The matrix is symmetric if `g̃(k, s) = g̃(k + s, −s)`.
+//! `((k₁ m₂ + k₂)(2n + 1) + s₁ + n)(2n + 1) + s₂ + n`. Places with `k + s` outside the array hold 0. The matrix
+//! is symmetric if `g̃(k, s) = g̃(k + s, −s)`.
 //!
 //! Course: section 9.4.
 
@@ -71,7 +72,8 @@ impl OffsetMatrix {
         2 * self.values.len()
     }
 
-    /// The place of entry `(k, s)`, given with as many coordinates as there are directions; `None` if there is no such place.
+    /// The place of entry `(k, s)`, given with as many coordinates as there are directions; `None` if there is
+    /// no such place.
     pub fn entry_index(&self, k: &[usize], s: &[isize]) -> Option<usize> {
         let row = self.row_index(k)?;
         let mut place = row;
@@ -92,7 +94,8 @@ impl OffsetMatrix {
         self.entry_index(k, s).map_or(0.0, |place| self.values[place])
     }
 
-    /// Adds `value` in row `row` and column `column` of the matrix, both flat indices; `false` if the storage has no such place.
+    /// Adds `value` in row `row` and column `column` of the matrix, both flat indices; `false` if the storage
+    /// has no such place.
     pub fn add(&mut self, row: usize, column: usize, value: f64) -> bool {
         let place = self.place(row, column);
         if let Some(place) = place {

@@ -75,7 +75,8 @@ pub struct Discretisation {
 }
 
 impl Discretisation {
-    /// Weighted B-splines of `degree` with grid width `width`, n + 3 Gauss points, conjugate gradients to a relative residual of 1e-10.
+    /// Weighted B-splines of `degree` with grid width `width`, n + 3 Gauss points, conjugate gradients to a
+    /// relative residual of 1e-10.
     pub fn new(degree: usize, width: f64) -> Self {
         let limits = IterationLimits { relative_tolerance: 1e-10, max_steps: 20_000 };
         Self {
@@ -172,7 +173,8 @@ impl WeightedSystem {
     ///
     /// # Errors
     ///
-    /// Those of the solver; `NoInnerArray` for web-splines on a coarse grid, `IncompatibleData`, `SingularSystem` for a pure Neumann problem with web-splines.
+    /// Those of the solver; `NoInnerArray` for web-splines on a coarse grid, `IncompatibleData`,
+    /// `SingularSystem` for a pure Neumann problem with web-splines.
     pub fn solve(
         self,
         basis: Basis,
@@ -370,7 +372,8 @@ const MAX_DENSE: usize = 3000;
 ///
 /// # Errors
 ///
-/// `StepLimit` above 3000 rows, `NotPositiveDefinite` if an eigenvalue or, for scaling, a diagonal entry is not positive, `NotConverged`.
+/// `StepLimit` above 3000 rows, `NotPositiveDefinite` if an eigenvalue or, for scaling, a diagonal entry is not
+/// positive, `NotConverged`.
 pub fn condition_number(
     matrix: &SparseMatrix,
     kept: &[bool],
@@ -482,7 +485,7 @@ mod tests {
             };
             let solution = solve_problem(&problem, &settings, None, &Unwatched).unwrap();
             let errors = solution.errors(&u).unwrap();
-            // Web-splines only contain w q if w(xᵢ) does not spoil the coefficients: it does not, it scales the basis.
+            // The extension keeps polynomials of degree n, and the factors 1/w(xᵢ) only scale the basis.
             assert!(errors.relative_l2() < 1e-11, "{basis:?}: {errors:?}");
         }
     }

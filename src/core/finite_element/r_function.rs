@@ -4,8 +4,9 @@
 //! r_c(a) = −a,   r_∪(a, b) = a + b + s,   r_∩(a, b) = a + b − s,   r_\(a, b) = a − b − s = r_∩(a, −b),   s = √(a² + b²).
 //! ```
 //!
-//! The result is positive exactly where the operation on "is positive" says so. Where just one of the weights vanishes, and it decides, the slope of the result
-//! across that boundary is the slope of that weight. At a corner, `a = b = 0`, there is no gradient: the value is 0 and the gradient returned is 0.
+//! The result is positive exactly where the operation on "is positive" says so. Where just one of the weights
+//! vanishes, and it decides, the slope of the result across that boundary is the slope of that weight. At a
+//! corner, `a = b = 0`, there is no gradient: the value is 0 and the gradient returned is 0.
 //!
 //! V. Rvachev, T. Sheiko, *R-functions in boundary value problems in mechanics*, 1995. Course: section 9.2.
 

@@ -4,8 +4,9 @@
 //! Q(u) = ½ a(u, u) − λ(u),   u_h = Σ uₖ Bₖ minimises Q  ⟺  G U = F,   gₖₖ' = a(Bₖ', Bₖ),   fₖ = λ(Bₖ),
 //! ```
 //!
-//! and then `Q(u_h) = −F·U/2`, `a(u_h, u_h) = F·U`. In one variable `a(u, v) = ∫ A u' v' + c u v`, `λ(v) = ∫ f v`; on a rectangle the system of
-//! `−Δu + c u = f` with `f = f₁(x₁) f₂(x₂)` is `G = K₁ ⊗ M₂ + M₁ ⊗ K₂ + c M₁ ⊗ M₂`, `F = F₁ ⊗ F₂` with the stiffness matrices `K` and the mass matrices `M`.
+//! and then `Q(u_h) = −F·U/2`, `a(u_h, u_h) = F·U`. In one variable `a(u, v) = ∫ A u' v' + c u v`, `λ(v) = ∫ f
+//! v`; on a rectangle the system of `−Δu + c u = f` with `f = f₁(x₁) f₂(x₂)` is `G = K₁ ⊗ M₂ + M₁ ⊗ K₂ + c M₁ ⊗
+//! M₂`, `F = F₁ ⊗ F₂` with the stiffness matrices `K` and the mass matrices `M`.
 //!
 //! W. Ritz, 1908; B. Galerkin, 1915. Course: sections 9.1 and 9.4.
 
@@ -51,7 +52,8 @@ impl<M: SystemMatrix> GalerkinSystem<M> {
         solve_system(&self.matrix, &self.load, start, method, watcher)
     }
 
-    /// The system of the functions with the indices `kept`, in this succession: the others are discarded as by essential conditions.
+    /// The system of the functions with the indices `kept`, in this succession: the others are discarded as by
+    /// essential conditions.
     ///
     /// # Errors
     ///
@@ -76,7 +78,8 @@ pub struct LineForm {
     pub load: f64,
 }
 
-/// The system of `−(A u')' + c u = f` with natural conditions for all splines of an open space; `points` Gauss points per knot interval.
+/// The system of `−(A u')' + c u = f` with natural conditions for all splines of an open space; `points` Gauss
+/// points per knot interval.
 ///
 /// # Errors
 ///

@@ -1,7 +1,8 @@
 //! Solving Galerkin systems `G U = F`.
 //!
-//! Conjugate gradients with the diagonal preconditioner, or a direct factorisation. Without essential conditions constants lie in the kernel of `G`:
-//! then `F` must sum to 0, and the solution is the one whose coefficients have mean 0; the caller adds the constant that fixes the mean value.
+//! Conjugate gradients with the diagonal preconditioner, or a direct factorisation. Without essential
+//! conditions constants lie in the kernel of `G`: then `F` must sum to 0, and the solution is the one whose
+//! coefficients have mean 0; the caller adds the constant that fixes the mean value.
 //!
 //! Course: sections 9.1, 9.2 (pure Neumann problem) and 9.4.
 
@@ -88,7 +89,8 @@ pub fn solve_system(
 /// How far from 0 the sum of the right side may be, relative to the sum of moduli.
 const COMPATIBLE: f64 = 1e-8;
 
-/// Solves a system with the constants in the matrix's kernel; `free` tells which coefficients belong to it, the others must have unit rows.
+/// Solves a system with the constants in the matrix's kernel; `free` tells which coefficients belong to it, the
+/// others must have unit rows.
 ///
 /// # Errors
 ///

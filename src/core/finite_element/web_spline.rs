@@ -1,17 +1,20 @@
 //! Weighted extended B-splines (web-splines): the outer B-splines are joined to inner ones.
 //!
-//! Every outer index `j` takes the nearest array `I(j) = l + {0 … n}ᵈ` of inner indices (distance of its centre `l + n/2` from `j`, of equal ones the
-//! lexicographically smallest `l`), and
+//! Every outer index `j` takes the nearest array `I(j) = l + {0 … n}ᵈ` of inner indices (distance of its centre
+//! `l + n/2` from `j`, of equal ones the lexicographically smallest `l`), and
 //!
 //! ```text
 //! eᵢⱼ = Π over ν Π over μ = 0 … n, lᵥ + μ ≠ iᵥ of (jᵥ − lᵥ − μ)/(iᵥ − lᵥ − μ),   i ∈ I(j),
 //! B̃ᵢ = (w / w(xᵢ)) (bᵢ + Σ over j with i ∈ I(j) of eᵢⱼ bⱼ),
 //! ```
 //!
-//! which extrapolates coefficients that are polynomials of degree n. `xᵢ` is the centre of an inner cell of the support: the nearest one to the centre of the support,
-//! of equal ones the lexicographically smallest. With `E = (eᵢⱼ)`, its identity part included, and `D = diag(1/w(xᵢ))` the Galerkin matrix of the web-splines is `(DE) G (DE)ᵗ`.
+//! which extrapolates coefficients that are polynomials of degree n. `xᵢ` is the centre of an inner cell of the
+//! support: the nearest one to the centre of the support, of equal ones the lexicographically smallest. With `E
+//! = (eᵢⱼ)`, its identity part included, and `D = diag(1/w(xᵢ))` the Galerkin matrix of the web-splines is
+//! `(DE) G (DE)ᵗ`.
 //!
-//! K. Höllig, U. Reif, J. Wipper, *Weighted extended B-spline approximation of Dirichlet problems*, 2001. Course: section 9.2.
+//! K. Höllig, U. Reif, J. Wipper, *Weighted extended B-spline approximation of Dirichlet problems*, 2001.
+//! Course: section 9.2.
 
 use crate::core::domain::CellClass;
 use crate::core::finite_element::error::FiniteElementError;
@@ -146,7 +149,8 @@ impl<const D: usize> NodeArray<D> {
         self.of_class(NodeClass::Outer).into_iter().map(join).collect()
     }
 
-    /// The coefficients `eᵢⱼ` of a joined index, for the `i` of its array in row-major succession, with the places of the `i`.
+    /// The coefficients `eᵢⱼ` of a joined index, for the `i` of its array in row-major succession, with the
+    /// places of the `i`.
     pub fn extension(&self, joined: &Joined<D>) -> Vec<(usize, f64)> {
         let factors: [Vec<f64>; D] = std::array::from_fn(|axis| {
             let offset = joined.outer[axis] as isize - joined.array[axis] as isize;
@@ -177,7 +181,8 @@ impl<const D: usize> NodeArray<D> {
             .min_by_key(distance)
     }
 
-    /// `DE`: one row for each inner index, one column for each B-spline of the array. `weight_at` gives `w` at the centre of a cell.
+    /// `DE`: one row for each inner index, one column for each B-spline of the array. `weight_at` gives `w` at
+    /// the centre of a cell.
     ///
     /// # Errors
     ///
@@ -208,7 +213,8 @@ impl<const D: usize> NodeArray<D> {
     }
 }
 
-/// The coefficients in one direction for `j = l + offset` and `i = l, …, l + n`: the Lagrange polynomials of the nodes `0 … n` at `offset`.
+/// The coefficients in one direction for `j = l + offset` and `i = l, …, l + n`: the Lagrange polynomials of
+/// the nodes `0 … n` at `offset`.
 pub fn extension_coefficients(degree: usize, offset: isize) -> Vec<f64> {
     let factor = |i: usize, mu: usize| (offset as f64 - mu as f64) / (i as f64 - mu as f64);
     (0..=degree).map(|i| (0..=degree).filter(|mu| *mu != i).map(|mu| factor(i, mu)).product()).collect()

@@ -1,4 +1,5 @@
-//! Weight functions: positive in the domain, zero with a nonzero slope on the part Γ of its boundary with essential conditions.
+//! Weight functions: positive in the domain, zero with a nonzero slope on the part Γ of its boundary with
+//! essential conditions.
 //!
 //! Course: section 9.2.
 
@@ -71,7 +72,8 @@ impl Debug for Weight {
     }
 }
 
-/// The weight that R-functions make of the levels of a domain's leaves: positive inside, negative outside, 0 on the boundary.
+/// The weight that R-functions make of the levels of a domain's leaves: positive inside, negative outside, 0 on
+/// the boundary.
 pub fn domain_weight(domain: &Domain, x: DVec2) -> Jet {
     match domain {
         Domain::Primitive(primitive) => primitive.level(x),

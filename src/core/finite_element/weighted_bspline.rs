@@ -1,9 +1,11 @@
 //! Weighted B-splines `Bₖ = w bₖ` on a uniform grid.
 //!
-//! `k` is *relevant* if some cell of the support of `bₖ` meets the domain, *inner* if some cell of the support is an inner cell, *outer* if it is relevant and not inner. Then
-//! `grad Bₖ = w grad bₖ + bₖ grad w`. Coefficients fill the whole array; irrelevant ones are 0.
+//! `k` is *relevant* if some cell of the support of `bₖ` meets the domain, *inner* if some cell of the support
+//! is an inner cell, *outer* if it is relevant and not inner. Then `grad Bₖ = w grad bₖ + bₖ grad w`.
+//! Coefficients fill the whole array; irrelevant ones are 0.
 //!
-//! K. Höllig, U. Reif, J. Wipper, *Weighted extended B-spline approximation of Dirichlet problems*, 2001. Course: section 9.2.
+//! K. Höllig, U. Reif, J. Wipper, *Weighted extended B-spline approximation of Dirichlet problems*, 2001.
+//! Course: section 9.2.
 
 use glam::DVec2;
 
@@ -29,7 +31,8 @@ pub struct WeightedSpace {
 }
 
 impl WeightedSpace {
-    /// The space of `degree` with `gauss_points` in each direction of a cell's pieces; n + 3 keep all rates of convergence.
+    /// The space of `degree` with `gauss_points` in each direction of a cell's pieces; n + 3 keep all rates of
+    /// convergence.
     ///
     /// # Errors
     ///
@@ -86,8 +89,8 @@ impl WeightedSpace {
         self.grid().bounds().lower + self.grid().width() * place
     }
 
-    /// Value and gradient at `x` of the function with these coefficients, missing ones read as 0; `None` outside the
-    /// domain or the grid.
+    /// Value and gradient at `x` of the function with these coefficients, missing ones read as 0; `None`
+    /// outside the domain or the grid.
     pub fn evaluate(&self, coefficients: &[f64], x: DVec2) -> Option<Jet> {
         let (cell, local) = self.grid().locate(x)?;
         if !self.domain.contains(x) {
@@ -112,7 +115,8 @@ impl WeightedSpace {
         Some(product(self.weight.at(x), spline))
     }
 
-    /// Writes the values at `columns × rows` points, from the lower corner of the grid's box to the upper one, x running fastest; NaN outside the domain.
+    /// Writes the values at `columns × rows` points, from the lower corner of the grid's box to the upper one,
+    /// x running fastest; NaN outside the domain.
     ///
     /// # Errors
     ///

@@ -6,7 +6,8 @@
 //! α = r·z / p·Ap,   x += α p,   r −= α Ap,   β = (r·z)new / (r·z)old,   p = z + β p.
 //! ```
 //!
-//! The iteration ends when `|r| ≤ tolerance·|b|` in the Euclidean norm. It also solves a singular system whose right side is orthogonal to the kernel.
+//! The iteration ends when `|r| ≤ tolerance·|b|` in the Euclidean norm. It also solves a singular system whose
+//! right side is orthogonal to the kernel.
 //!
 //! M. Hestenes, E. Stiefel, *Methods of conjugate gradients for solving linear systems*, 1952. Course: section 9.4.
 
@@ -103,7 +104,8 @@ impl ConjugateGradients {
 ///
 /// # Errors
 ///
-/// `SizeMismatch`, `NonFinite` (data, or a product), `InvalidTolerance`, `NotPositiveDefinite` (a step meets `p·Ap ≤ 0`), `NotConverged`, `Stopped`.
+/// `SizeMismatch`, `NonFinite` (data, or a product), `InvalidTolerance`, `NotPositiveDefinite` (a step meets
+/// `p·Ap ≤ 0`), `NotConverged`, `Stopped`.
 pub fn conjugate_gradients(
     matrix: &impl LinearOperator,
     right_side: &[f64],

@@ -71,7 +71,8 @@ impl DenseMatrix {
     ///
     /// # Errors
     ///
-    /// `SizeMismatch` (also for a matrix that is not square), `NonFinite`, `Singular` when a pivot vanishes up to rounding.
+    /// `SizeMismatch` (also for a matrix that is not square), `NonFinite`, `Singular` when a pivot vanishes up
+    /// to rounding.
     pub fn solve(&self, right_side: &[f64]) -> Result<Vec<f64>, LinearSystemError> {
         self.check_square()?;
         check_size("entries of the right side", self.rows, right_side.len())?;
@@ -96,7 +97,8 @@ impl DenseMatrix {
         self.view().self_adjoint_eigenvalues(Side::Lower).map_err(|_| not_converged())
     }
 
-    /// Eigenvalues, increasing, and orthonormal eigenvectors (as rows) of a symmetric matrix; only the lower triangle is read.
+    /// Eigenvalues, increasing, and orthonormal eigenvectors (as rows) of a symmetric matrix; only the lower
+    /// triangle is read.
     ///
     /// # Errors
     ///

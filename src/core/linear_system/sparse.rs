@@ -1,7 +1,8 @@
 //! Sparse matrices in compressed rows, and direct solution.
 //!
-//! Row `i` owns the entries `starts[i]..starts[i + 1]` of the lists of columns (strictly increasing in a row) and values. Symmetric positive
-//! definite systems are solved by a sparse Cholesky factorisation, others by sparse elimination with partial pivoting (both of faer).
+//! Row `i` owns the entries `starts[i]..starts[i + 1]` of the lists of columns (strictly increasing in a row)
+//! and values. Symmetric positive definite systems are solved by a sparse Cholesky factorisation, others by
+//! sparse elimination with partial pivoting (both of faer).
 
 use std::fmt::{self, Debug, Formatter};
 
@@ -24,7 +25,8 @@ pub struct SparseMatrix {
 }
 
 impl SparseMatrix {
-    /// The matrix with the sums of all given `(row, column, value)` at the same place; zeros given stay in the pattern.
+    /// The matrix with the sums of all given `(row, column, value)` at the same place; zeros given stay in the
+    /// pattern.
     ///
     /// # Errors
     ///
@@ -250,7 +252,8 @@ impl SparseMatrix {
         }
     }
 
-    /// A factorisation for [`SparseFactor::solve`]: Cholesky if the matrix is symmetric and positive definite, otherwise by elimination.
+    /// A factorisation for [`SparseFactor::solve`]: Cholesky if the matrix is symmetric and positive definite,
+    /// otherwise by elimination.
     ///
     /// # Errors
     ///
@@ -264,7 +267,7 @@ impl SparseMatrix {
             return Ok(factor);
         }
         match self.view().sp_lu() {
-            Ok(factor) => Ok(SparseFactor { size, kind: Kind::Lu(factor) }),
+            Ok(factor) => Ok(SparseFactor { size, kind: Kind::Lu(Box::new(factor)) }),
             Err(faer::sparse::linalg::LuError::SymbolicSingular { .. }) => {
                 Err(LinearSystemError::Singular { size })
             }
@@ -307,7 +310,7 @@ pub struct SparseFactor {
 enum Kind {
     Cholesky(Llt<usize, f64>),
     /// Of the transposed matrix.
-    Lu(Lu<usize, f64>),
+    Lu(Box<Lu<usize, f64>>),
 }
 
 impl SparseFactor {
