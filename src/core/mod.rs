@@ -13,6 +13,9 @@
 //! | 6.1 Control polygon | `spline_curve/nurbs`, `spline_curve/editing`, `spline_curve/curvature` |
 //! | 6.3 Refinement | `spline_curve/knot_insertion`, `spline_curve/knot_removal` |
 //! | 6.4 Algorithms | `spline_curve/bezier_form` |
+//! | 9.1 Ritz-Galerkin approximation | `finite_element/{form, ritz_galerkin, error_norm, poisson}` |
+//! | 9.2 Weighted B-splines | `domain/`, `finite_element/{r_function, weight_function, weighted_bspline, web_spline}` |
+//! | 9.4 Implementation | `quadrature`, `linear_system/`, `finite_element/{cell_quadrature, offset_matrix, assembly, solver}` |
 //! | beyond | `spline_curve/degree`, `spline_curve/deviation`, `spline_curve/closest_point` |
 //!
 //! # Notation and conventions
@@ -30,7 +33,12 @@
 
 pub mod bezier;
 pub mod bspline;
+pub mod domain;
+pub mod finite_element;
+pub mod linear_system;
 pub mod point;
+pub mod progress;
+pub mod quadrature;
 pub mod rational_bezier;
 pub mod spline_curve;
 pub mod triangular_scheme;
