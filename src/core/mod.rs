@@ -30,7 +30,12 @@
 
 pub mod bezier;
 pub mod bspline;
+pub mod domain;
+pub mod finite_element;
+pub mod linear_system;
 pub mod point;
+pub mod progress;
+pub mod quadrature;
 pub mod rational_bezier;
 pub mod spline_curve;
 pub mod triangular_scheme;

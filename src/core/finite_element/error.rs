@@ -1,0 +1,209 @@
+//! What can be wrong with a finite element problem.
+
+use glam::DVec2;
+use thiserror::Error;
+
+use crate::core::bspline::SplineError;
+use crate::core::linear_system::LinearSystemError;
+use crate::core::progress::Stopped;
+use crate::core::quadrature::QuadratureError;
+
+/// Errors of finite elements. [`FiniteElementError::name`] gives the name used in the course's conventions.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum FiniteElementError {
+    /// A function's value is infinite or not a number.
+    #[error("{what} is {value} at ({}, {}), not a finite number", point.x, point.y)]
+    NonFinite {
+        /// Which function or number.
+        what: &'static str,
+        /// Where.
+        point: DVec2,
+        /// The value.
+        value: f64,
+    },
+    /// Two lengths disagree.
+    #[error("{found} {what} given, {expected} needed")]
+    SizeMismatch {
+        /// What was counted.
+        what: &'static str,
+        /// How many are needed.
+        expected: usize,
+        /// How many were given.
+        found: usize,
+    },
+    /// A side of the grid's box is empty.
+    #[error("the box runs from {left} to {right} in direction {axis}")]
+    EmptyInterval {
+        /// Direction, 0 or 1.
+        axis: usize,
+        /// Left end.
+        left: f64,
+        /// Right end.
+        right: f64,
+    },
+    /// A limit of the library is exceeded.
+    #[error("{what} {value} is outside the limits 1..={limit}")]
+    StepLimit {
+        /// What is limited.
+        what: &'static str,
+        /// The value asked for.
+        value: usize,
+        /// The largest possible value.
+        limit: usize,
+    },
+    /// The cut cells could not be divided into pieces with monotone sides.
+    #[error("cell ({}, {}) is still not sliced after {depth} halvings", cell[0], cell[1])]
+    CellNotSliced {
+        /// The cell.
+        cell: [usize; 2],
+        /// Number of halvings.
+        depth: usize,
+    },
+    /// No B-spline has a part of its support in the domain.
+    #[error("the domain contains no part of the grid's cells")]
+    EmptyDomain,
+    /// The grid is too coarse for web-splines.
+    #[error(
+        "no (n + 1) x (n + 1) array of inner B-splines for the outer one ({}, {}); use a finer grid or plain weighted B-splines",
+        index[0], index[1]
+    )]
+    NoInnerArray {
+        /// The outer B-spline.
+        index: [usize; 2],
+    },
+    /// The weight function is not positive inside the domain.
+    #[error("the weight function is {value} at ({}, {}) in the domain", point.x, point.y)]
+    WeightNotPositive {
+        /// Where.
+        point: DVec2,
+        /// Its value.
+        value: f64,
+    },
+    /// The gradient of the weight function vanishes on the boundary.
+    #[error("the gradient of the weight function vanishes at the boundary point ({}, {})", point.x, point.y)]
+    DegenerateWeight {
+        /// Where.
+        point: DVec2,
+    },
+    /// The coefficients are not elliptic: A is not symmetric and positive definite, or c is negative.
+    #[error("the coefficient {what} at ({}, {}) is not elliptic ({value})", point.x, point.y)]
+    NotElliptic {
+        /// Which coefficient.
+        what: &'static str,
+        /// Where.
+        point: DVec2,
+        /// Its smallest eigenvalue, its asymmetry, or its value.
+        value: f64,
+    },
+    /// The right side of a problem without essential conditions does not balance.
+    #[error("the right side sums to {sum}, it must sum to 0 (sum of moduli {scale})")]
+    IncompatibleData {
+        /// Sum of its entries.
+        sum: f64,
+        /// Sum of their moduli.
+        scale: f64,
+    },
+    /// Without essential conditions and reaction the solution is unique up to a constant only.
+    #[error("the system has a constant in its kernel; fix the mean value")]
+    SingularSystem,
+    /// An elastic body that is not held.
+    #[error("the body is not fixed; {dimension} rigid motions remain")]
+    UnconstrainedBody {
+        /// Dimension of the kernel.
+        dimension: usize,
+    },
+    /// The Jacobian determinant of a patch vanishes.
+    #[error("the Jacobian of patch {patch} vanishes at ({}, {})", parameter.x, parameter.y)]
+    SingularJacobian {
+        /// The patch.
+        patch: usize,
+        /// Where.
+        parameter: DVec2,
+    },
+    /// The Jacobian determinant of a patch is negative.
+    #[error("the Jacobian of patch {patch} is negative ({value})")]
+    NegativeOrientation {
+        /// The patch.
+        patch: usize,
+        /// The largest determinant found.
+        value: f64,
+    },
+    /// The Jacobian determinant of a patch changes its sign.
+    #[error("the Jacobian of patch {patch} changes its sign, from {min} to {max}")]
+    FoldedParametrisation {
+        /// The patch.
+        patch: usize,
+        /// The smallest determinant found.
+        min: f64,
+        /// The largest determinant found.
+        max: f64,
+    },
+    /// Common sides of patches differ.
+    #[error("patches {first} and {second} differ by {distance} on their common side")]
+    InterfaceMismatch {
+        /// A patch.
+        first: usize,
+        /// Its neighbour.
+        second: usize,
+        /// Largest distance of corresponding points.
+        distance: f64,
+    },
+    /// Degrees or knots on common sides of patches differ.
+    #[error("degrees or knots of patches {first} and {second} differ on their common side")]
+    KnotMismatch {
+        /// A patch.
+        first: usize,
+        /// Its neighbour.
+        second: usize,
+    },
+    /// Essential conditions on a side that does not exist.
+    #[error("there is no side {side} of patch {patch} on the boundary")]
+    DirichletSideUnknown {
+        /// The patch.
+        patch: usize,
+        /// The side.
+        side: usize,
+    },
+    /// From the linear system.
+    #[error(transparent)]
+    LinearSystem(#[from] LinearSystemError),
+    /// From a Gauss rule.
+    #[error(transparent)]
+    Quadrature(#[from] QuadratureError),
+    /// From a spline space.
+    #[error(transparent)]
+    Spline(#[from] SplineError),
+    /// The watcher stopped the work.
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
+}
+
+impl FiniteElementError {
+    /// The name of the error in the conventions of the course.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::NonFinite { .. } => "NonFinite",
+            Self::SizeMismatch { .. } => "SizeMismatch",
+            Self::EmptyInterval { .. } => "EmptyInterval",
+            Self::StepLimit { .. } | Self::CellNotSliced { .. } => "StepLimit",
+            Self::EmptyDomain => "EmptyDomain",
+            Self::NoInnerArray { .. } => "NoInnerArray",
+            Self::WeightNotPositive { .. } => "WeightNotPositive",
+            Self::DegenerateWeight { .. } => "DegenerateWeight",
+            Self::NotElliptic { .. } => "NotElliptic",
+            Self::IncompatibleData { .. } => "IncompatibleData",
+            Self::SingularSystem => "SingularSystem",
+            Self::UnconstrainedBody { .. } => "UnconstrainedBody",
+            Self::SingularJacobian { .. } => "SingularJacobian",
+            Self::NegativeOrientation { .. } => "NegativeOrientation",
+            Self::FoldedParametrisation { .. } => "FoldedParametrisation",
+            Self::InterfaceMismatch { .. } => "InterfaceMismatch",
+            Self::KnotMismatch { .. } => "KnotMismatch",
+            Self::DirichletSideUnknown { .. } => "DirichletSideUnknown",
+            Self::LinearSystem(error) => error.name(),
+            Self::Quadrature(error) => error.name(),
+            Self::Spline(error) => error.name(),
+            Self::Stopped(_) => "Stopped",
+        }
+    }
+}
