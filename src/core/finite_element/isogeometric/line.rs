@@ -156,8 +156,8 @@ impl Line {
             let count = second.cells;
             let [x, y, w, ax, ay, aw, bx, by, bw] = &mut self.fields;
             let [x, y, w] = [&mut x[range.clone()], &mut y[range.clone()], &mut w[range.clone()]];
-            let [ax, ay, aw] = [&mut ax[range.clone()], &mut ay[range.clone()], &aw[range.clone()]];
-            let [bx, by, bw] = [&mut bx[range.clone()], &mut by[range.clone()], &bw[range.clone()]];
+            let (ax, ay, aw) = (&mut ax[range.clone()], &mut ay[range.clone()], &aw[range.clone()]);
+            let (bx, by, bw) = (&mut bx[range.clone()], &mut by[range.clone()], &bw[range.clone()]);
             let [c11, c12, c22] = &mut self.diffusion;
             let [c11, c12, c22] =
                 [&mut c11[range.clone()], &mut c12[range.clone()], &mut c22[range.clone()]];
