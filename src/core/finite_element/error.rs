@@ -4,6 +4,7 @@ use glam::DVec2;
 use thiserror::Error;
 
 use crate::core::bspline::SplineError;
+use crate::core::finite_element::geometry::PatchSide;
 use crate::core::linear_system::LinearSystemError;
 use crate::core::progress::Stopped;
 use crate::core::quadrature::QuadratureError;
@@ -121,40 +122,61 @@ pub enum FiniteElementError {
         value: f64,
     },
     /// The Jacobian determinant of a patch changes its sign.
-    #[error("the Jacobian of patch {patch} changes its sign, from {min} to {max}")]
+    #[error(
+        "patch {patch} is folded: its Jacobian is {least} at ({}, {}) and {greatest} at ({}, {})",
+        least_at.x, least_at.y, greatest_at.x, greatest_at.y
+    )]
     FoldedParametrisation {
         /// The patch.
         patch: usize,
         /// The smallest determinant found.
-        min: f64,
+        least: f64,
+        /// Its parameter.
+        least_at: DVec2,
         /// The largest determinant found.
-        max: f64,
+        greatest: f64,
+        /// Its parameter.
+        greatest_at: DVec2,
+    },
+    /// A patch with a periodic direction; every direction needs two sides.
+    #[error("direction {axis} is periodic; patches are open")]
+    PeriodicDirection {
+        /// The direction, 0 or 1.
+        axis: usize,
+    },
+    /// Knots, degree or parameter of one direction are wrong.
+    #[error("direction {axis}: {source}")]
+    Direction {
+        /// The direction, 0 or 1.
+        axis: usize,
+        /// What is wrong.
+        source: SplineError,
     },
     /// Common sides of patches differ.
-    #[error("patches {first} and {second} differ by {distance} on their common side")]
+    #[error("the {} of patch {} and the {} of patch {} have common ends but differ by {distance}", first.1, first.0, second.1, second.0)]
     InterfaceMismatch {
-        /// A patch.
-        first: usize,
-        /// Its neighbour.
-        second: usize,
+        /// A patch and its side.
+        first: (usize, PatchSide),
+        /// The neighbour and its side.
+        second: (usize, PatchSide),
         /// Largest distance of corresponding points.
         distance: f64,
     },
     /// Degrees or knots on common sides of patches differ.
-    #[error("degrees or knots of patches {first} and {second} differ on their common side")]
+    #[error("degrees or knots of the {} of patch {} and the {} of patch {} differ, or are not n-fold across it", first.1, first.0, second.1, second.0)]
     KnotMismatch {
-        /// A patch.
-        first: usize,
-        /// Its neighbour.
-        second: usize,
+        /// A patch and its side.
+        first: (usize, PatchSide),
+        /// The neighbour and its side.
+        second: (usize, PatchSide),
     },
     /// Essential conditions on a side that does not exist.
-    #[error("there is no side {side} of patch {patch} on the boundary")]
+    #[error("the {side} of patch {patch} cannot be fixed: no such patch, an interface, or knots that are not n-fold there")]
     DirichletSideUnknown {
         /// The patch.
         patch: usize,
         /// The side.
-        side: usize,
+        side: PatchSide,
     },
     /// From the linear system.
     #[error(transparent)]
@@ -189,6 +211,8 @@ impl FiniteElementError {
             Self::SingularJacobian { .. } => "SingularJacobian",
             Self::NegativeOrientation { .. } => "NegativeOrientation",
             Self::FoldedParametrisation { .. } => "FoldedParametrisation",
+            Self::PeriodicDirection { .. } => "KnotsNotRegular",
+            Self::Direction { source, .. } => source.name(),
             Self::InterfaceMismatch { .. } => "InterfaceMismatch",
             Self::KnotMismatch { .. } => "KnotMismatch",
             Self::DirichletSideUnknown { .. } => "DirichletSideUnknown",
@@ -197,5 +221,16 @@ impl FiniteElementError {
             Self::Spline(error) => error.name(),
             Self::Stopped(_) => "Stopped",
         }
+    }
+
+    /// The same error of patch `number`, if it names a patch.
+    pub(super) fn of_patch(mut self, number: usize) -> Self {
+        if let Self::SingularJacobian { patch, .. }
+        | Self::FoldedParametrisation { patch, .. }
+        | Self::DirichletSideUnknown { patch, .. } = &mut self
+        {
+            *patch = number;
+        }
+        self
     }
 }

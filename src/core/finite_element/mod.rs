@@ -11,17 +11,29 @@
 //! | `cell_quadrature` | 9.4 inner, cut and outer cells, and their nodes |
 //! | `offset_matrix`, `assembly`, `solver` | 9.4 storage, element by element, solution |
 //! | `poisson` | 9.1, 9.2 a boundary value problem in one call |
+//! | `geometry/` | 9.3 plane NURBS patches: point, Jacobian, inverse, range of the determinant |
+//! | `sample_geometries` | the plane patches of the course, and a few more |
+//! | `isogeometric/` | 9.3 one patch: space, assembly by sum factorisation, solution, errors, rates |
+//! | `multipatch/` | 9.3 several patches that share sides |
+//! | `fast_diagonalisation` | tensor-product systems through two small eigenproblems |
+//! | `flow/` | 9.5 potential flow through a channel, stream lines |
 
 mod assembly;
 mod cell_quadrature;
 mod error;
 mod error_norm;
+mod fast_diagonalisation;
+mod flow;
 mod form;
 mod grid;
 mod offset_matrix;
 mod poisson;
 mod r_function;
 mod ritz_galerkin;
+mod geometry;
+mod isogeometric;
+mod multipatch;
+pub mod sample_geometries;
 mod solver;
 mod web_spline;
 mod weight_function;
@@ -31,15 +43,23 @@ pub use assembly::{BlockSink, ElementSamples, ElementSource, assemble, map_eleme
 pub use cell_quadrature::{QuadraturePoint, QuadratureTable, Slice, SlicedCell, slice_cell};
 pub use error::FiniteElementError;
 pub use error_norm::{ErrorNorms, ErrorSums, convergence_rates};
+pub use fast_diagonalisation::{DirectionMatrices, FastDiagonalisation};
+pub use flow::{PotentialFlow, StreamEnd, StreamLine, StreamPoint};
 pub use form::{Coefficient, EllipticForm, FormAtPoint, Jet};
 pub use grid::{CellBasis, Grid, MAX_CELLS, MAX_ELEMENT_DEGREE};
 pub use offset_matrix::OffsetMatrix;
 pub use poisson::{
     Basis, ConvergenceStudy, Discretisation, Problem, WeightedSolution, WeightedSystem, condition_number,
-    convergence_study, solve_problem,
+    weighted_convergence_study, solve_problem,
 };
 pub use r_function::{r_complement, r_difference, r_intersection, r_union};
 pub use ritz_galerkin::{GalerkinSystem, LineForm, line_system, rectangle_system};
+pub use geometry::{DeterminantRange, Orientation, PatchJet, PatchSide, PlanePatch};
+pub use isogeometric::{
+    IsogeometricSolution, IsogeometricSpace, IsogeometricSystem, SideFlux, SolutionJet, StudyRow, TensorBandMatrix,
+    isogeometric_convergence_study, solve_patch,
+};
+pub use multipatch::{FixedSides, Interface, MultiPatch, MultiPatchSolution};
 pub use solver::{Method, SystemMatrix, SystemSolution, solve_system, solve_up_to_a_constant};
 pub use web_spline::{Joined, NodeArray, NodeClass, extension_coefficients};
 pub use weight_function::{Weight, domain_weight};

@@ -3,8 +3,9 @@
 //! Row-major: entry `(i, j)` of an `r × c` matrix stands at `i c + j`.
 
 use faer::Side;
+use faer::linalg::matmul::matmul;
 use faer::linalg::solvers::Solve as _;
-use faer::{Mat, MatRef};
+use faer::{Accum, Mat, MatMut, MatRef, Par};
 
 use crate::core::linear_system::error::{LinearSystemError, check_finite, check_size};
 
@@ -111,6 +112,50 @@ impl DenseMatrix {
         Ok((values, Self::from_function(self.rows, self.rows, |i, j| vectors[(j, i)])?))
     }
 
+    /// Writes the product `A B` into `product`, or `Aᵗ B` if `transposed`; `right` and `product` are row-major with
+    /// `columns` columns.
+    ///
+    /// # Errors
+    ///
+    /// `SizeMismatch`.
+    pub fn write_product(
+        &self,
+        transposed: bool,
+        right: &[f64],
+        columns: usize,
+        product: &mut [f64],
+    ) -> Result<(), LinearSystemError> {
+        let left = if transposed { self.view().transpose() } else { self.view() };
+        check_size("entries of the right factor", left.ncols() * columns, right.len())?;
+        check_size("places for the product", left.nrows() * columns, product.len())?;
+        let right = MatRef::from_row_major_slice(right, left.ncols(), columns);
+        let target = MatMut::from_row_major_slice_mut(product, left.nrows(), columns);
+        matmul(target, Accum::Replace, left, right, 1.0, Par::Seq);
+        Ok(())
+    }
+
+    /// Writes the product `L A` into `product`, or `L Aᵗ` if `transposed`; `left` and `product` are row-major with
+    /// `rows` rows.
+    ///
+    /// # Errors
+    ///
+    /// `SizeMismatch`.
+    pub fn write_left_product(
+        &self,
+        transposed: bool,
+        left: &[f64],
+        rows: usize,
+        product: &mut [f64],
+    ) -> Result<(), LinearSystemError> {
+        let right = if transposed { self.view().transpose() } else { self.view() };
+        check_size("entries of the left factor", rows * right.nrows(), left.len())?;
+        check_size("places for the product", rows * right.ncols(), product.len())?;
+        let left = MatRef::from_row_major_slice(left, rows, right.nrows());
+        let target = MatMut::from_row_major_slice_mut(product, rows, right.ncols());
+        matmul(target, Accum::Replace, left, right, 1.0, Par::Seq);
+        Ok(())
+    }
+
     fn check_square(&self) -> Result<(), LinearSystemError> {
         check_size("columns", self.rows, self.columns)
     }
@@ -168,5 +213,22 @@ mod tests {
         assert_eq!(DenseMatrix::new(1, 2, vec![1.0, f64::NAN]).unwrap_err().name(), "NonFinite", "NaN");
         let empty = DenseMatrix::new(0, 0, vec![]).unwrap();
         assert_eq!(empty.solve(&[]), Ok(vec![]), "no unknown");
+    }
+
+    #[test]
+    fn products_from_both_sides_are_sums_of_products() {
+        let a = DenseMatrix::new(2, 3, vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0]).unwrap();
+        let mut product = [0.0; 4];
+        a.write_product(false, &[1.0, 0.0, 0.0, 1.0, 1.0, 1.0], 2, &mut product).unwrap();
+        assert_eq!(product, [4.0, 5.0, 10.0, 11.0], "A B");
+        a.write_left_product(true, &[1.0, 0.0, 1.0, 0.0, 2.0, 0.0], 2, &mut product).unwrap();
+        assert_eq!(product, [4.0, 10.0, 4.0, 10.0], "L times the transpose");
+        let mut product = [0.0; 3];
+        a.write_product(true, &[1.0, -1.0], 1, &mut product).unwrap();
+        assert_eq!(product, [-3.0; 3], "the transpose times B");
+        a.write_left_product(false, &[1.0, -1.0], 1, &mut product).unwrap();
+        assert_eq!(product, [-3.0; 3], "L A");
+        let error = a.write_product(false, &[1.0; 2], 1, &mut product).unwrap_err();
+        assert_eq!(error.name(), "SizeMismatch", "two rows for three columns");
     }
 }
