@@ -31,6 +31,9 @@
 pub mod bezier;
 pub mod bspline;
 pub mod point;
+pub mod quadrature;
 pub mod rational_bezier;
 pub mod spline_curve;
+pub mod surface;
+pub mod tensor;
 pub mod triangular_scheme;

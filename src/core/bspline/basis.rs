@@ -123,7 +123,7 @@ impl SplineSpace {
 }
 
 /// From the `level` values of degree `level − 1` in `values` to the `level + 1` values of degree `level`.
-fn raise(knots: &[f64], span: usize, level: usize, x: f64, values: &mut [f64]) {
+pub(super) fn raise(knots: &[f64], span: usize, level: usize, x: f64, values: &mut [f64]) {
     // No division by zero: every denominator spans the nonempty interval [ξₗ, ξₗ₊₁).
     let mut from_left = 0.0;
     for j in 0..level {

@@ -3,6 +3,7 @@
 //! | file | what |
 //! |---|---|
 //! | `basis` | 4.1 the recurrence, single B-splines and the active ones of a space |
+//! | `basis_derivative` | 4.2 derivatives of the active B-splines
 //! | `derivative` | 4.2, 4.5 derivatives as splines and as sums that may jump |
 //! | `space` | 4.4, 4.6 degree and knots that fit each other |
 //! | `builders`, `multiple_end_knots` | 4.4 spaces from breaks, and from the knots of other programs |
@@ -13,6 +14,7 @@
 //! | `unroll` | 4.6 a period as an open spline |
 
 mod basis;
+mod basis_derivative;
 mod builders;
 mod derivative;
 mod error;
