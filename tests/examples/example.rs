@@ -20,12 +20,19 @@ pub(crate) struct Example {
     failures: RefCell<Vec<String>>,
 }
 
-/// A computed value: a number, a list of values, or a word.
+/// A computed value: a number, a list of values, a word, or whether an inequality holds.
 #[derive(Clone, Debug)]
 pub(crate) enum Got {
     Number(f64),
     List(Vec<Self>),
     Word(String),
+    Truth(bool),
+}
+
+impl From<bool> for Got {
+    fn from(value: bool) -> Self {
+        Self::Truth(value)
+    }
 }
 
 impl From<f64> for Got {
@@ -119,9 +126,19 @@ impl Example {
 
     /// Compares what was computed with everything under `expect[key]`.
     pub(crate) fn expect(&self, key: &str, got: impl Into<Got>) {
-        match self.expect.get(key) {
-            Some(wanted) => self.compare(key, wanted, &got.into()),
-            None => self.fail(format!("nothing is expected under {key}")),
+        self.expect_at(&[key], got);
+    }
+
+    /// Compares with the part of `expect` that the keys, or the indices of lists, lead to; with all of it if there are none.
+    pub(crate) fn expect_at(&self, keys: &[&str], got: impl Into<Got>) {
+        let found = keys.iter().try_fold(&self.expect, |value, key| match value {
+            Value::Array(list) => list.get(key.parse::<usize>().ok()?),
+            _ => value.get(key),
+        });
+        let path: String = keys.iter().map(|key| format!("/{key}")).collect();
+        match found {
+            Some(wanted) => self.compare(&path, wanted, &got.into()),
+            None => self.fail(format!("nothing is expected under {path}")),
         }
     }
 
@@ -149,7 +166,6 @@ impl Example {
     }
 
     fn compare(&self, path: &str, wanted: &Value, got: &Got) {
-        let path = if path.starts_with('/') { path.to_owned() } else { format!("/{path}") };
         match (wanted, got) {
             (Value::Array(wanted), Got::List(got)) => {
                 if wanted.len() != got.len() {
@@ -160,13 +176,19 @@ impl Example {
                 }
             }
             (Value::String(wanted), Got::Word(got)) => {
-                self.read.borrow_mut().insert(path.clone());
+                self.read.borrow_mut().insert(path.to_owned());
+                if wanted != got {
+                    self.fail(format!("{path}: {got}, expected {wanted}"));
+                }
+            }
+            (Value::Bool(wanted), Got::Truth(got)) => {
+                self.read.borrow_mut().insert(path.to_owned());
                 if wanted != got {
                     self.fail(format!("{path}: {got}, expected {wanted}"));
                 }
             }
             (wanted, Got::Number(got)) => {
-                self.read.borrow_mut().insert(path.clone());
+                self.read.borrow_mut().insert(path.to_owned());
                 let Some(wanted) = number(wanted) else {
                     return self.fail(format!("{path}: {got} is compared with {wanted}"));
                 };

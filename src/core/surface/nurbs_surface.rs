@@ -6,7 +6,6 @@
 use glam::{DVec3, DVec4};
 
 use crate::core::bspline::{MAX_DEGREE, Side, Spline, SplineError};
-use crate::core::point::Point as _;
 use crate::core::rational_bezier::Projective as _;
 use crate::core::spline_curve::Nurbs;
 use crate::core::surface::curvature::{Curvatures, SurfaceJet};
@@ -477,7 +476,7 @@ pub(super) mod tests {
                 (patch.degrees[1], [patch.cell[0].0, patch.cell[1].1]),
                 (last, [patch.cell[0].1, patch.cell[1].1]),
             ] {
-                let error = (patch.points[place] - surface.evaluate(at).unwrap()).norm();
+                let error = (patch.points[place] - surface.evaluate(at).unwrap()).length();
                 assert!(error < 1e-12, "corner {place} of {:?}: off by {error}", patch.cell);
             }
         }

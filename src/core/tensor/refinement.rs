@@ -108,7 +108,6 @@ impl<P: Point, const D: usize> TensorSpline<P, D> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::core::bezier::BezierCurve;
     use crate::core::tensor::tensor_product::tests::mixed;
     use glam::DVec3;

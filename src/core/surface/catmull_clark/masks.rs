@@ -3,7 +3,7 @@
 //! `v` is the vertex, `e_k` its neighbours, `F_k` the centroids of its faces, `f_k` the vertices opposite to it in quadrilaterals;
 //! `m` is the number of faces. The uniform rules for creases; boundary edges are infinitely sharp.
 //!
-//! E. Catmull, J. Clark, 1978; T. DeRose, M. Kass, T. Truong, *Subdivision surfaces in character animation*, 1998. Course: section 8.3.
+//! E. Catmull, J. Clark, *Recursively generated B-spline surfaces on arbitrary topological meshes*, 1978. Course: section 8.3.
 
 use std::f64::consts::{PI, TAU};
 

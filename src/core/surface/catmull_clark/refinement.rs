@@ -57,7 +57,6 @@ pub(super) fn write_topology(parent: &MeshTopology, child: &mut MeshTopology) {
         child.vertex_corners[face_point] = 4 * start + 2;
         let mut before_corner = start + size - 1;
         let mut before = parent.corner_edges[before_corner as usize];
-        // Whether the face runs along the edge before this corner as its first one does.
         for corner in range.clone() {
             let (vertex, edge) = (parent.corner_vertices[corner], parent.corner_edges[corner]);
             let forwards = parent.edge_corners[edge as usize][0] == corner as u32;

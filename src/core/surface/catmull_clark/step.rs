@@ -138,6 +138,21 @@ impl PolygonMesh {
         Ok(())
     }
 
+    /// Writes the whole connectivity of every level from 1 to `levels`; buffers of `result` are used again. It does not depend on positions.
+    ///
+    /// # Errors
+    ///
+    /// `StepLimit` above [`MAX_FACES`] faces.
+    pub fn refine_topology_into(&self, levels: usize, result: &mut Vec<MeshTopology>) -> Result<(), MeshError> {
+        self.check_size(levels)?;
+        result.resize_with(levels, MeshTopology::default);
+        for level in 0..levels {
+            let (coarse, fine) = result.split_at_mut(level);
+            write_topology(coarse.last().unwrap_or(&self.topology), &mut fine[0]);
+        }
+        Ok(())
+    }
+
     /// Number of faces after `levels` steps, if it is below the limit.
     fn check_size(&self, levels: usize) -> Result<(), MeshError> {
         let corners = self.topology.corner_vertices.len();
@@ -247,4 +262,199 @@ pub fn stencil_through(
         stencil = coarser.joined();
     }
     Ok(stencil)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::core::surface::mesh_shapes;
+    use crate::core::tensor::{Net, subdivide_net};
+
+    const STANDARD: BoundaryRule = BoundaryRule::Standard { fix_corners: false };
+
+    fn all_shapes() -> Vec<(&'static str, PolygonMesh)> {
+        let fixed = mesh_shapes::open_sheet(2, 3).unwrap().with_fixed_vertex(5).unwrap();
+        let soft =
+            mesh_shapes::cube().with_sharpness([0, 1], 0.4).unwrap().with_sharpness([1, 2], 2.7).unwrap();
+        let more =
+            [("fixed sheet", fixed), ("softly creased cube", soft.with_sharpness([1, 5], 0.9).unwrap())];
+        mesh_shapes::named_shapes().into_iter().chain(more).collect()
+    }
+
+    #[test]
+    fn closed_formulas_give_the_connectivity_built_from_the_faces() {
+        for (name, mesh) in all_shapes() {
+            let steps = mesh.subdivide_levels(2, STANDARD).unwrap();
+            for step in &steps {
+                let topology = &step.mesh.topology;
+                let faces: Vec<Vec<u32>> = topology.faces().map(<[u32]>::to_vec).collect();
+                let built = MeshTopology::new(step.mesh.positions.len(), &faces).unwrap();
+                assert!(topology.is_quads(), "{name}");
+                assert_eq!(topology.valences, built.valences, "{name}");
+                assert_eq!(topology.boundary_loops().len(), built.boundary_loops().len(), "{name}");
+                assert_eq!(step.mesh.counts()[3], mesh.counts()[3], "{name}: V − E + F");
+                for vertex in 0..step.mesh.positions.len() {
+                    let (mut found, mut expected) = (topology.ring(vertex), built.ring(vertex));
+                    assert_eq!(found.closed, expected.closed, "{name}, vertex {vertex}");
+                    if found.closed {
+                        let turn = |ring: &[u32]| {
+                            ring.iter().position(|v| *v == *ring.iter().min().unwrap()).unwrap()
+                        };
+                        let (a, b) = (turn(&found.neighbours), turn(&expected.neighbours));
+                        found.neighbours.rotate_left(a);
+                        expected.neighbours.rotate_left(b);
+                    }
+                    assert_eq!(found.neighbours, expected.neighbours, "{name}, vertex {vertex}");
+                }
+                for edge in 0..topology.edge_count() {
+                    let [a, b] = topology.edge(edge);
+                    assert_eq!(topology.edge_between(a, b), Some(edge), "{name}, edge {edge}");
+                    assert_eq!(
+                        topology.face_edges(topology.edge_faces(edge).next().unwrap()).len(),
+                        4,
+                        "{name}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn positions_are_the_stencils_which_sum_to_one() {
+        for fix_corners in [false, true] {
+            for (name, mesh) in all_shapes() {
+                let rule = BoundaryRule::Standard { fix_corners };
+                let steps = mesh.subdivide_levels(3, rule).unwrap();
+                let mut parent = &mesh;
+                for step in &steps {
+                    for (vertex, &origin) in step.origins.iter().enumerate() {
+                        let stencil = parent.stencil(origin, fix_corners).unwrap();
+                        let sum: f64 = stencil.weights.iter().map(|entry| entry.1).sum();
+                        assert!((sum - 1.0).abs() < 1e-14, "{name}: weights of {origin:?} sum to {sum}");
+                        assert!(
+                            stencil.weights.iter().all(|entry| entry.1 > 0.0),
+                            "{name}: convex at {origin:?}"
+                        );
+                        let error = stencil.apply(&parent.positions).distance(step.mesh.positions[vertex]);
+                        assert!(error < 1e-14, "{name}, {origin:?}: off by {error}");
+                    }
+                    parent = &step.mesh;
+                }
+                let last = &steps[2].mesh;
+                for vertex in (0..last.positions.len()).step_by(37) {
+                    let stencil = stencil_through(&mesh, &steps, rule, vertex).unwrap();
+                    let error = stencil.apply(&mesh.positions).distance(last.positions[vertex]);
+                    assert!(error < 1e-14, "{name}, three steps to {vertex}: off by {error}");
+                }
+                let mut fast = RefinedMesh::default();
+                for levels in [2, 3] {
+                    mesh.refine_into(levels, rule, &mut fast).unwrap();
+                    let slow = &steps[levels - 1].mesh;
+                    assert_eq!(fast.positions, slow.positions, "{name}: the same arithmetic");
+                    assert_eq!(fast.quads.concat(), slow.topology.corner_vertices, "{name}: the same faces");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn limits_do_not_change_under_a_step_and_refined_vertices_run_to_them() {
+        for (name, mesh) in all_shapes() {
+            let steps = mesh.subdivide_levels(4, STANDARD).unwrap();
+            let limits = mesh.limit_positions(false);
+            let next = steps[0].mesh.limit_positions(false);
+            for (vertex, &limit) in limits.iter().enumerate() {
+                let error = limit.distance(next[vertex]);
+                assert!(error < 1e-13, "{name}, vertex {vertex}: moved by {error}");
+                let gap = limit.distance(steps[3].mesh.positions[vertex]);
+                assert!(gap < 0.05, "{name}, vertex {vertex}: still {gap} away after four steps");
+            }
+        }
+    }
+
+    #[test]
+    fn a_closed_net_is_refined_like_a_tensor_product_spline() {
+        let torus = mesh_shapes::torus_grid(6, 5).unwrap();
+        let step = torus.subdivide(STANDARD).unwrap();
+        let net = Net { shape: [6, 5], points: torus.positions.clone() };
+        let refined = subdivide_net(&net, 3, [true, true]).unwrap();
+        assert_eq!(refined.shape, [12, 10], "twice as many in each direction");
+        for (vertex, &origin) in step.origins.iter().enumerate() {
+            if let Origin::Vertex(v) = origin {
+                let (i, j) = (v as usize / 5, v as usize % 5);
+                let error = step.mesh.positions[vertex].distance(refined.points[2 * i * 10 + 2 * j]);
+                assert!(error < 1e-15, "image of ({i}, {j}) is off by {error}");
+            }
+        }
+        let sum = |points: &[DVec3]| points.iter().map(|p| p.length_squared()).sum::<f64>();
+        let error = sum(&step.mesh.positions) - sum(&refined.points);
+        assert!(error.abs() < 1e-11, "all points together: {error}");
+    }
+
+    #[test]
+    fn the_limit_of_a_regular_face_is_its_bicubic_patch() {
+        let torus = mesh_shapes::torus_grid(6, 5).unwrap();
+        let weights = [1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0];
+        for face in 0..30 {
+            let net = torus.bspline_patch(face).unwrap();
+            for (corner, [i, j]) in [[0, 0], [1, 0], [1, 1], [0, 1]].into_iter().enumerate() {
+                let mut point = DVec3::ZERO;
+                for (a, u) in weights.iter().enumerate() {
+                    for (b, v) in weights.iter().enumerate() {
+                        point += net[i + a][j + b] * (u * v);
+                    }
+                }
+                let vertex = torus.topology.face(face)[corner] as usize;
+                let error = point.distance(torus.limit(vertex, false).unwrap().position);
+                assert!(error < 1e-14, "face {face}, corner {corner}: off by {error}");
+            }
+        }
+        assert_eq!(mesh_shapes::cube().bspline_patch(0), None, "three faces at a corner");
+    }
+
+    #[test]
+    fn limit_normals_are_those_of_the_fine_mesh() {
+        for (name, mesh) in [("cube", mesh_shapes::cube()), ("tetrahedron", mesh_shapes::tetrahedron())] {
+            let steps = mesh.subdivide_levels(6, STANDARD).unwrap();
+            let fine = &steps[5].mesh;
+            for vertex in 0..mesh.positions.len() {
+                let ring = fine.topology.ring(vertex);
+                let arm = |k: usize| {
+                    fine.positions[ring.neighbours[k % ring.faces.len()] as usize] - fine.positions[vertex]
+                };
+                let mean = (0..ring.faces.len()).map(|k| arm(k).cross(arm(k + 1))).sum::<DVec3>().normalize();
+                let normal = mesh.limit_normal(vertex, None, false).unwrap();
+                assert!(normal.distance(mean) < 1e-3, "{name}, vertex {vertex}: {normal} and {mean}");
+            }
+        }
+    }
+
+    #[test]
+    fn planar_sheets_and_sharp_polyhedra_stay_what_they_are() {
+        let sheet = mesh_shapes::open_sheet(3, 3).unwrap();
+        let mut refined = RefinedMesh::default();
+        sheet.refine_into(3, STANDARD, &mut refined).unwrap();
+        assert!(refined.positions.iter().all(|p| p.z == 0.0), "planar");
+        let corners = BoundaryRule::Standard { fix_corners: true };
+        sheet.refine_into(3, corners, &mut refined).unwrap();
+        for corner in [0, 3, 12, 15] {
+            assert_eq!(refined.positions[corner], sheet.positions[corner], "a fixed corner");
+        }
+        let inner = sheet.subdivide(BoundaryRule::Discard).unwrap();
+        assert_eq!(inner.parents.len(), inner.mesh.topology.face_count(), "a parent for each face");
+        assert_eq!(inner.mesh.topology.face_count(), 16, "four inner vertices with four quadrilaterals each");
+        let strip = mesh_shapes::open_sheet(3, 1).unwrap();
+        assert_eq!(
+            strip.subdivide(BoundaryRule::Discard).unwrap_err().name(),
+            "EmptyResult",
+            "no inner vertex"
+        );
+        assert_eq!(sheet.subdivide_levels(12, STANDARD).unwrap_err().name(), "StepLimit", "too many faces");
+        assert_eq!(
+            sheet.subdivide_levels(usize::MAX, STANDARD).unwrap_err().name(),
+            "StepLimit",
+            "far too many"
+        );
+        assert_eq!(sheet.refine_into(0, STANDARD, &mut refined).unwrap_err().name(), "StepLimit", "no level");
+    }
 }
