@@ -41,4 +41,6 @@ pub mod progress;
 pub mod quadrature;
 pub mod rational_bezier;
 pub mod spline_curve;
+pub mod surface;
+pub mod tensor;
 pub mod triangular_scheme;

@@ -4,8 +4,8 @@
 //! ∫₀¹ f ≈ Σ wᵢ f(xᵢ),   exact for polynomials of degree 2q − 1 with q points.
 //! ```
 //!
-//! The nodes are the roots `z` of the Legendre polynomial `P_q`, moved by `x = (1 + z)/2`; on `[0, 1]` the
-//! weights are `1/((1 − z²) P'_q(z)²)`. Newton's method starts from `cos(π (i + 3/4)/(q + 1/2))`.
+//! The nodes are the roots `z` of the Legendre polynomial `P_q`, moved by `x = (1 + z)/2`; on `[0, 1]` the weights are
+//! `1/((1 − z²) P'_q(z)²)`. Newton's method starts from `cos(π (i + 3/4)/(q + 1/2))`.
 //!
 //! M. Abramowitz, I. Stegun, *Handbook of Mathematical Functions*, 1964, 25.4.29 and 22.16.6.
 
@@ -42,8 +42,7 @@ impl QuadratureError {
     }
 }
 
-/// Nodes and weights on `[0, 1]`; nodes increase, lie inside, and are symmetric about 1/2; weights are positive
-/// and sum to 1.
+/// Nodes and weights on `[0, 1]`; nodes increase, lie inside, and are symmetric about 1/2; weights are positive and sum to 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GaussRule {
     nodes: Vec<f64>,

@@ -1,6 +1,7 @@
-//! Figures for paper and other programs.
+//! Figures for paper, and meshes of other programs.
 
 pub mod by_ending;
+pub mod obj;
 mod page;
 pub mod pdf;
 pub mod png;

@@ -19,6 +19,11 @@ pub struct BSplineSum<P> {
 }
 
 impl<P: Point> BSplineSum<P> {
+    /// The sum with the given parts: `degree + 1` more nondecreasing knots than coefficients, the caller's duty.
+    pub(crate) fn from_parts(degree: usize, knots: Vec<f64>, coefficients: Vec<P>) -> Self {
+        Self { degree, knots, coefficients }
+    }
+
     /// The degree, 0 or more.
     pub fn degree(&self) -> usize {
         self.degree

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `basis` | 4.1 the recurrence, single B-splines and the active ones of a space |
 //! | `active_derivatives` | 4.2 derivatives of the active B-splines at one parameter, without allocation |
+//! | `basis_derivative` | 4.2 derivatives of the active B-splines
 //! | `derivative` | 4.2, 4.5 derivatives as splines and as sums that may jump |
 //! | `space` | 4.4, 4.6 degree and knots that fit each other |
 //! | `builders`, `multiple_end_knots` | 4.4 spaces from breaks, and from the knots of other programs |
@@ -15,6 +16,7 @@
 
 mod active_derivatives;
 mod basis;
+mod basis_derivative;
 mod builders;
 mod derivative;
 mod error;
