@@ -28,8 +28,11 @@
 //!
 //! K. Höllig, J. Hörner, *Approximation and Modeling with B-Splines*, SIAM 2013, has the sections.
 
+pub mod approximation;
 pub mod bezier;
 pub mod bspline;
+pub mod formula;
+pub mod linear_system;
 pub mod point;
 pub mod rational_bezier;
 pub mod spline_curve;
