@@ -26,6 +26,13 @@ pub(crate) enum Got {
     Number(f64),
     List(Vec<Self>),
     Word(String),
+    Flag(bool),
+}
+
+impl From<bool> for Got {
+    fn from(value: bool) -> Self {
+        Self::Flag(value)
+    }
 }
 
 impl From<f64> for Got {
@@ -160,6 +167,12 @@ impl Example {
                 }
             }
             (Value::String(wanted), Got::Word(got)) => {
+                self.read.borrow_mut().insert(path.clone());
+                if wanted != got {
+                    self.fail(format!("{path}: {got}, expected {wanted}"));
+                }
+            }
+            (Value::Bool(wanted), Got::Flag(got)) => {
                 self.read.borrow_mut().insert(path.clone());
                 if wanted != got {
                     self.fail(format!("{path}: {got}, expected {wanted}"));

@@ -4,6 +4,7 @@
 
 mod chapter2;
 mod chapter4;
+mod chapter5;
 mod chapter6;
 mod example;
 
@@ -13,7 +14,7 @@ use std::io::Write as _;
 use example::Example;
 
 /// The sections built so far. An example of one of them without a test is a failure.
-const SECTIONS: [&str; 6] = ["2.1", "2.3", "4.1", "4.4", "4.5", "6.1"];
+const SECTIONS: [&str; 9] = ["2.1", "2.3", "4.1", "4.4", "4.5", "5.1", "5.5", "5.6", "6.1"];
 
 /// What computes an example and compares.
 type Check = fn(&Example);
@@ -27,7 +28,10 @@ fn every_example_of_the_sections_built_is_asserted() {
         .map(|entry| Example::new(&entry))
         .collect();
     let checks: BTreeMap<&str, Check> =
-        [chapter2::CHECKS, chapter4::CHECKS, chapter6::CHECKS].concat().into_iter().collect();
+        [chapter2::CHECKS, chapter4::CHECKS, chapter5::CHECKS, chapter6::CHECKS]
+            .concat()
+            .into_iter()
+            .collect();
     let mut wrong = Vec::new();
     for id in checks.keys() {
         if !examples.iter().any(|example| example.id == *id) {

@@ -21,7 +21,11 @@ use crate::core::point::Point;
 ///
 /// `NonFinite`, `SitesNotSorted`, `OutsideInterval`; `SizeMismatch` for a periodic space.
 pub fn collocation_matrix(space: &SplineSpace, sites: &[f64]) -> Result<BandMatrix, ApproximationError> {
-    check_length("columns of a band (the space is periodic)", space.dimension(), space.evaluation_dimension())?;
+    check_length(
+        "columns of a band (the space is periodic)",
+        space.dimension(),
+        space.evaluation_dimension(),
+    )?;
     check_order(space, sites)?;
     let (n, m, knots) = (space.degree(), space.dimension(), space.knots());
     let mut matrix = BandMatrix::with_capacity(sites.len(), m, n + 1);

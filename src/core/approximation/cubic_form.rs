@@ -14,7 +14,12 @@ use crate::core::bspline::{Spline, SplineSpace};
 use crate::core::point::Point;
 
 /// Writes the coefficients that belong to the inner ones of the `sites`, two fewer.
-pub(super) fn write_inner_coefficients<P: Point>(sites: &[f64], values: &[P], moments: &[P], result: &mut [P]) {
+pub(super) fn write_inner_coefficients<P: Point>(
+    sites: &[f64],
+    values: &[P],
+    moments: &[P],
+    result: &mut [P],
+) {
     let neighbours = sites.windows(3).zip(values.windows(3)).zip(moments.windows(3));
     for (coefficient, ((x, y), moment)) in result.iter_mut().zip(neighbours) {
         let (a, b) = (x[1] - x[0], x[2] - x[1]);
@@ -26,7 +31,10 @@ pub(super) fn write_inner_coefficients<P: Point>(sites: &[f64], values: &[P], mo
 
 /// The open spline with simple knots at the `sites`, two or more, and exterior knots spaced by `outer`.
 pub(super) fn spline_from_moments<P: Point>(
-    sites: &[f64], values: &[P], moments: &[P], outer: (f64, f64),
+    sites: &[f64],
+    values: &[P],
+    moments: &[P],
+    outer: (f64, f64),
 ) -> Result<Spline<P>, ApproximationError> {
     let last = sites.len() - 1;
     let mut coefficients = vec![P::ZERO; sites.len() + 2];
@@ -34,8 +42,8 @@ pub(super) fn spline_from_moments<P: Point>(
     // At an end the slope comes from the only interval, and seen from outside everything is mirrored.
     let end = |at: usize, next: usize, outer: f64| {
         let width = (sites[next] - sites[at]).abs();
-        let slope = (values[next] - values[at]) * width.recip()
-            - (moments[at] * 2.0 + moments[next]) * (width / 6.0);
+        let slope =
+            (values[next] - values[at]) * width.recip() - (moments[at] * 2.0 + moments[next]) * (width / 6.0);
         let second = values[at] + slope * ((width - outer) / 3.0) - moments[at] * (outer * width / 6.0);
         let first = values[at] - slope * outer + moments[at] * (outer * outer / 3.0);
         (first, second)

@@ -48,7 +48,9 @@ pub enum EndConditions<P> {
 /// `SizeMismatch`, `NonFinite`, `SitesNotSorted` unless the sites increase strictly; `TooFewData` for fewer than two sites, or three distinct ones if
 /// periodic; `NoSolution` if the ends of periodic data differ; `PeriodTooShort`.
 pub fn cubic_interpolation<P: Point>(
-    sites: &[f64], values: &[P], ends: EndConditions<P>,
+    sites: &[f64],
+    values: &[P],
+    ends: EndConditions<P>,
 ) -> Result<Spline<P>, ApproximationError> {
     check_length("values", sites.len(), values.len())?;
     check_increasing(sites)?;
@@ -85,7 +87,8 @@ pub fn cubic_interpolation<P: Point>(
         }
         EndConditions::Clamped { start, end } => {
             check_finite("end condition", &[start, end])?;
-            let row = |jump: P, width: f64| EndRow { factor: 1.0, diagonal: 2.0, right: jump * (6.0 / width) };
+            let row =
+                |jump: P, width: f64| EndRow { factor: 1.0, diagonal: 2.0, right: jump * (6.0 / width) };
             (row(start_slope - start, first), row(end - end_slope, last))
         }
     };
@@ -103,7 +106,9 @@ pub fn natural_spline<P: Point>(sites: &[f64], values: &[P]) -> Result<Spline<P>
 }
 
 fn not_a_knot<P: Point>(
-    sites: &[f64], values: &[P], mut moments: Vec<P>,
+    sites: &[f64],
+    values: &[P],
+    mut moments: Vec<P>,
 ) -> Result<Spline<P>, ApproximationError> {
     let last = sites.len() - 1;
     let width = |i: usize| sites[i + 1] - sites[i];
@@ -133,7 +138,8 @@ fn not_a_knot<P: Point>(
     let extrapolate = |near: P, far: P, a: f64, b: f64| near + (near - far) * (a / b);
     moments[0] = extrapolate(moments[1], moments[2], outer.0, width(1));
     moments[last] = extrapolate(moments[last - 1], moments[last - 2], outer.1, width(last - 2));
-    let reduced = [sites[0]].iter().chain(&sites[2..last - 1]).chain(&sites[last..]).copied().collect::<Vec<_>>();
+    let reduced =
+        [sites[0]].iter().chain(&sites[2..last - 1]).chain(&sites[last..]).copied().collect::<Vec<_>>();
     let without = |all: &[P]| [&all[..1], &all[2..last - 1], &all[last..]].concat();
     spline_from_moments(&reduced, &without(values), &without(&moments), outer)
 }
@@ -152,4 +158,140 @@ fn periodic<P: Point>(sites: &[f64], values: &[P], period: f64) -> Result<Spline
     let from = MARGIN + 1;
     write_inner_coefficients(&x[from..], &y[from..], &moments[from..], &mut coefficients);
     Ok(Spline::new(space, coefficients)?)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
+    use super::*;
+    use crate::core::approximation::interpolation::interpolate;
+    use crate::core::bspline::Side;
+    use glam::DVec2;
+    use proptest::prelude::*;
+
+    fn sites(gaps: &[f64]) -> Vec<f64> {
+        let mut sites = vec![-0.7];
+        for gap in gaps {
+            sites.push(sites[sites.len() - 1] + gap);
+        }
+        sites
+    }
+
+    fn gaps(least: usize) -> impl Strategy<Value = Vec<f64>> {
+        prop::collection::vec(prop_oneof![0.05..2.0_f64, Just(1e-3)], least..14)
+    }
+
+    proptest! {
+        #[test]
+        fn cubics_are_reproduced(gaps in gaps(1)) {
+            let x = sites(&gaps);
+            let f = |x: f64| DVec2::new(x * x * x - 2.0 * x, 1.0 - x * x);
+            let slope = |x: f64| DVec2::new(3.0 * x * x - 2.0, -2.0 * x);
+            let bend = |x: f64| DVec2::new(6.0 * x, -2.0);
+            let (first, last) = (x[0], x[x.len() - 1]);
+            let y: Vec<DVec2> = x.iter().map(|&x| f(x)).collect();
+            let size = y.iter().fold(1.0_f64, |size, y| size.max(y.length()));
+            let mut ends = vec![
+                EndConditions::Clamped { start: slope(first), end: slope(last) },
+                EndConditions::SecondDerivative { start: bend(first), end: bend(last) },
+            ];
+            if x.len() > 3 {
+                ends.push(EndConditions::NotAKnot);
+            }
+            // A long interval beside short ones is extrapolated, which costs the square of the ratio.
+            let (short, long) = gaps.iter().fold((f64::MAX, 0.0_f64), |(a, b), gap| (a.min(*gap), b.max(*gap)));
+            for ends in ends {
+                let ratio = if ends == EndConditions::NotAKnot { long / short } else { 1.0 };
+                let curve = cubic_interpolation(&x, &y, ends).unwrap();
+                for pair in x.windows(2) {
+                    let at = pair[0] + 0.3 * (pair[1] - pair[0]);
+                    let gap = (curve.evaluate(at).unwrap() - f(at)).length();
+                    prop_assert!(gap < (1e-12 + 1e-15 * ratio * ratio) * size, "{:?} at {}: {}", ends, at, gap);
+                }
+            }
+        }
+
+        #[test]
+        fn conditions_at_the_ends_hold(gaps in gaps(4), seed in 0_usize..50) {
+            let x = sites(&gaps);
+            let y: Vec<f64> = (0..x.len()).map(|i| ((i * i + seed * i) % 11) as f64 - 4.0).collect();
+            let (first, last) = (x[0], x[x.len() - 1]);
+            // Slopes and bends grow with the smallest interval.
+            let scale = x.windows(2).fold(1.0_f64, |scale, pair| scale.max((pair[1] - pair[0]).recip()));
+            let derivatives = |spline: &Spline<f64>, x: f64, side: Side| spline.derivatives(x, 3, side).unwrap();
+            let cases = [
+                (EndConditions::Natural, 2, 0.0, 0.0),
+                (EndConditions::Clamped { start: 2.0, end: -1.0 }, 1, 2.0, -1.0),
+                (EndConditions::SecondDerivative { start: 2.0, end: -1.0 }, 2, 2.0, -1.0),
+            ];
+            for (ends, order, start, end) in cases {
+                let spline = cubic_interpolation(&x, &y, ends).unwrap();
+                let (a, b) = (derivatives(&spline, first, Side::Right)[order], derivatives(&spline, last, Side::Left)[order]);
+                let tolerance = 1e-12 * scale.powi(order as i32) * 100.0;
+                prop_assert!((a - start).abs() < tolerance && (b - end).abs() < tolerance, "{:?}: {} {}", ends, a, b);
+                for (&x, y) in x.iter().zip(&y) {
+                    prop_assert!((spline.evaluate(x).unwrap() - y).abs() < 1e-11, "{:?} at {}", ends, x);
+                }
+            }
+            // The same interpolant from the general system with its own knots.
+            let spline = cubic_interpolation(&x, &y, EndConditions::NotAKnot).unwrap();
+            let other = interpolate(spline.space().clone(), &x, &y).unwrap();
+            let size = other.coefficients().iter().fold(1.0_f64, |size, c| size.max(c.abs()));
+            for (a, b) in spline.coefficients().iter().zip(other.coefficients()) {
+                prop_assert!((a - b).abs() < 1e-9 * size, "{} and {}", a, b);
+            }
+        }
+
+        #[test]
+        fn the_seam_of_a_periodic_spline_is_as_smooth_as_the_rest(gaps in gaps(3), seed in 0_usize..50) {
+            let x = sites(&gaps);
+            let mut y: Vec<f64> = (0..x.len()).map(|i| ((i * i + seed * i) % 11) as f64 - 4.0).collect();
+            let last = x.len() - 1;
+            y[last] = y[0];
+            let spline = cubic_interpolation(&x, &y, EndConditions::Periodic).unwrap();
+            let space = SplineSpace::periodic(3, x[last] - x[0], x[..last].to_vec()).unwrap();
+            let other = interpolate(space, &x[..last], &y[..last]).unwrap();
+            let size = other.coefficients().iter().fold(1.0_f64, |size, c| size.max(c.abs()));
+            for (a, b) in spline.coefficients().iter().zip(other.coefficients()) {
+                prop_assert!((a - b).abs() < 1e-10 * size, "{} and {}", a, b);
+            }
+        }
+    }
+
+    #[test]
+    fn few_points_give_a_line_and_a_parabola() {
+        let line = cubic_interpolation(&[1.0, 3.0], &[2.0, 8.0], EndConditions::NotAKnot).unwrap();
+        assert_eq!(line.coefficients().len(), 4, "a cubic spline");
+        assert!((line.evaluate(2.5).unwrap() - 6.5).abs() < 1e-14, "on the line");
+        let parabola =
+            cubic_interpolation(&[0.0, 1.0, 3.0], &[0.0, 1.0, 9.0], EndConditions::NotAKnot).unwrap();
+        assert!((parabola.evaluate(2.0).unwrap() - 4.0).abs() < 1e-14, "on x²");
+    }
+
+    #[test]
+    fn bad_data_are_named() {
+        let name = |x: &[f64], y: &[f64], ends| cubic_interpolation(x, y, ends).unwrap_err().name();
+        assert_eq!(name(&[0.0], &[1.0], EndConditions::Natural), "TooFewData", "one point");
+        assert_eq!(name(&[], &[], EndConditions::NotAKnot), "TooFewData", "no point");
+        assert_eq!(name(&[0.0, 1.0], &[1.0], EndConditions::Natural), "SizeMismatch", "one value");
+        assert_eq!(
+            name(&[0.0, 1.0, 1.0], &[1.0; 3], EndConditions::Natural),
+            "SitesNotSorted",
+            "twice the same"
+        );
+        assert_eq!(name(&[0.0, f64::NAN, 1.0], &[1.0; 3], EndConditions::Natural), "NonFinite", "no site");
+        assert_eq!(name(&[0.0, 1.0], &[1.0, f64::NAN], EndConditions::Natural), "NonFinite", "no value");
+        let ends = EndConditions::Clamped { start: f64::NAN, end: 0.0 };
+        assert_eq!(name(&[0.0, 1.0], &[1.0, 2.0], ends), "NonFinite", "no slope");
+        assert_eq!(
+            name(&[0.0, 1.0, 2.0], &[1.0, 2.0, 1.0], EndConditions::Periodic),
+            "TooFewData",
+            "two points"
+        );
+        let open = [1.0, 2.0, 3.0, 4.0];
+        assert_eq!(name(&[0.0, 1.0, 2.0, 3.0], &open, EndConditions::Periodic), "NoSolution", "ends differ");
+        let ends = EndConditions::PeriodicOver { period: 3.0 };
+        assert_eq!(name(&[0.0, 1.0, 2.0, 3.0], &open, ends), "PeriodTooShort", "the last site is the first");
+    }
 }

@@ -4,7 +4,11 @@ use crate::core::approximation::error::ApproximationError;
 use crate::core::point::Point;
 
 /// `found` entries must be as many as the sites.
-pub(super) fn check_length(what: &'static str, expected: usize, found: usize) -> Result<(), ApproximationError> {
+pub(super) fn check_length(
+    what: &'static str,
+    expected: usize,
+    found: usize,
+) -> Result<(), ApproximationError> {
     if expected == found { Ok(()) } else { Err(ApproximationError::SizeMismatch { what, expected, found }) }
 }
 

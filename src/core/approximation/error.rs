@@ -61,7 +61,9 @@ pub enum ApproximationError {
         previous: f64,
     },
     /// A site lies outside the interior of the support of its B-spline, so that interpolation is not always possible.
-    #[error("site {index} is {value}, but must lie between {left} and {right}, in the support of B-spline {index}")]
+    #[error(
+        "site {index} is {value}, but must lie between {left} and {right}, in the support of B-spline {index}"
+    )]
     SchoenbergWhitney {
         /// Index of the site and of its B-spline, the first that fails.
         index: usize,
@@ -73,7 +75,9 @@ pub enum ApproximationError {
         right: f64,
     },
     /// A derivative is prescribed at a knot where the splines have none.
-    #[error("the site {value} (first index {index}) stands {sites} times on a knot of multiplicity {knots}; together at most {most}")]
+    #[error(
+        "the site {value} (first index {index}) stands {sites} times on a knot of multiplicity {knots}; together at most {most}"
+    )]
     KnotMultiplicityTooHigh {
         /// Index of the first copy of the site.
         index: usize,
@@ -87,7 +91,9 @@ pub enum ApproximationError {
         most: usize,
     },
     /// Algorithm for equally spaced knots.
-    #[error("knot interval {index} has length {length}, the first one {expected}; equally spaced knots are needed")]
+    #[error(
+        "knot interval {index} has length {length}, the first one {expected}; equally spaced knots are needed"
+    )]
     KnotsNotUniform {
         /// Index of the knot interval.
         index: usize,
@@ -107,7 +113,9 @@ pub enum ApproximationError {
         found: usize,
     },
     /// The data leave a B-spline undetermined.
-    #[error("the data do not determine coefficient {index}: no site is left in the interior of ({left}, {right})")]
+    #[error(
+        "the data do not determine coefficient {index}: no site is left in the interior of ({left}, {right})"
+    )]
     RankDeficient {
         /// Index of the B-spline.
         index: usize,

@@ -27,7 +27,10 @@ pub struct LeastSquares<P> {
 /// `SizeMismatch`, `NonFinite`, `WeightNotPositive`, `TooFewData` for fewer data than coefficients, `OutsideInterval` in an open space, `RankDeficient` with the first B-spline
 /// that finds no site; in a periodic space `Singular`.
 pub fn least_squares<P: Point>(
-    space: SplineSpace, sites: &[f64], values: &[P], weights: Option<&[f64]>,
+    space: SplineSpace,
+    sites: &[f64],
+    values: &[P],
+    weights: Option<&[f64]>,
 ) -> Result<LeastSquares<P>, ApproximationError> {
     check_length("values", sites.len(), values.len())?;
     check_finite("site", sites)?;
@@ -72,7 +75,10 @@ pub fn check_determined(space: &SplineSpace, sites: &[f64]) -> Result<(), Approx
 }
 
 fn sorted<P: Point>(
-    space: SplineSpace, sites: &[f64], values: &[P], weights: Option<&[f64]>,
+    space: SplineSpace,
+    sites: &[f64],
+    values: &[P],
+    weights: Option<&[f64]>,
 ) -> Result<LeastSquares<P>, ApproximationError> {
     let (n, m) = (space.degree(), space.dimension());
     let (left, right) = space.parameter_interval();
@@ -97,7 +103,10 @@ fn sorted<P: Point>(
 }
 
 fn periodic<P: Point>(
-    space: SplineSpace, sites: &[f64], values: &[P], weights: Option<&[f64]>,
+    space: SplineSpace,
+    sites: &[f64],
+    values: &[P],
+    weights: Option<&[f64]>,
 ) -> Result<LeastSquares<P>, ApproximationError> {
     let (n, m) = (space.degree(), space.dimension());
     let mut basis = [0.0; MAX_DEGREE + 1];
@@ -116,8 +125,11 @@ fn periodic<P: Point>(
         }
     }
     let column = |index: usize| (index / (2 * n + 1) + index % (2 * n + 1) + n * m - n) % m;
-    let triplets: Vec<_> =
-        products.iter().enumerate().map(|(index, &entry)| (index / (2 * n + 1), column(index), entry)).collect();
+    let triplets: Vec<_> = products
+        .iter()
+        .enumerate()
+        .map(|(index, &entry)| (index / (2 * n + 1), column(index), entry))
+        .collect();
     CyclicLu::factor(m, 0, &triplets)?.solve(&mut right)?;
     let spline = Spline::new(space, right)?;
     let mut residual = 0.0;
@@ -199,11 +211,18 @@ mod tests {
         let found = error(&[4.0, 2.5, 2.5, 2.5, 3.0], None);
         assert!(matches!(found, ApproximationError::RankDeficient { index: 0, .. }), "{found}");
         let found = error(&[0.0, 1.0, 1.0, 1.0], None);
-        assert!(matches!(found, ApproximationError::RankDeficient { index: 2, .. }), "one site counts once: {found}");
+        assert!(
+            matches!(found, ApproximationError::RankDeficient { index: 2, .. }),
+            "one site counts once: {found}"
+        );
         assert_eq!(error(&[0.0, 1.0, 3.0], None).name(), "TooFewData", "three data");
         assert_eq!(error(&[0.0, 1.0, 3.0, 4.1], None).name(), "OutsideInterval", "beyond D");
         assert_eq!(error(&[0.0, 1.0, f64::NAN, 4.0], None).name(), "NonFinite", "no number");
-        assert_eq!(error(&[0.0, 1.0, 3.0, 4.0], Some(&[1.0, 0.0, 1.0, 1.0])).name(), "WeightNotPositive", "0");
+        assert_eq!(
+            error(&[0.0, 1.0, 3.0, 4.0], Some(&[1.0, 0.0, 1.0, 1.0])).name(),
+            "WeightNotPositive",
+            "0"
+        );
         assert_eq!(error(&[0.0, 1.0, 3.0, 4.0], Some(&[1.0])).name(), "SizeMismatch", "one weight");
     }
 }

@@ -14,7 +14,10 @@ use crate::core::point::Point;
 /// # Errors
 ///
 /// `NonFinite` with the index of the average where `f` has no finite value.
-pub fn schoenberg<P: Point>(space: SplineSpace, f: impl Fn(f64) -> P) -> Result<Spline<P>, ApproximationError> {
+pub fn schoenberg<P: Point>(
+    space: SplineSpace,
+    f: impl Fn(f64) -> P,
+) -> Result<Spline<P>, ApproximationError> {
     let coefficients: Vec<P> = space.greville_abscissae().into_iter().map(f).collect();
     check_finite("value of the function at knot average", &coefficients)?;
     Ok(Spline::new(space, coefficients)?)
@@ -41,7 +44,9 @@ pub fn schoenberg_interval(space: &SplineSpace, x: f64) -> Result<(f64, f64), Ap
 ///
 /// `NonFinite`, `OutsideInterval`.
 pub fn schoenberg_error_bound(
-    space: &SplineSpace, x: f64, second_derivative: f64,
+    space: &SplineSpace,
+    x: f64,
+    second_derivative: f64,
 ) -> Result<f64, ApproximationError> {
     let (left, right) = schoenberg_interval(space, x)?;
     let h = (right - x).max(x - left);
@@ -54,7 +59,10 @@ pub fn schoenberg_error_bound(
 ///
 /// `NonFinite`, `EmptyInterval`, `TooFewData` for no interval, `OutsideInterval` unless the exponent is positive and finite.
 pub fn graded_breaks(
-    left: f64, right: f64, intervals: usize, exponent: f64,
+    left: f64,
+    right: f64,
+    intervals: usize,
+    exponent: f64,
 ) -> Result<Vec<f64>, ApproximationError> {
     check_finite("end of the interval", &[left, right])?;
     if left >= right {

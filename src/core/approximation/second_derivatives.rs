@@ -33,7 +33,11 @@ impl<P: Point> EndRow<P> {
 
 /// Writes `Mᵢ` for all sites into `moments`; the ends of the system are the first and the last site.
 pub(super) fn solve<P: Point>(
-    sites: &[f64], values: &[P], start: EndRow<P>, end: EndRow<P>, moments: &mut [P],
+    sites: &[f64],
+    values: &[P],
+    start: EndRow<P>,
+    end: EndRow<P>,
+    moments: &mut [P],
 ) {
     let (size, length) = (sites.len(), WINDOW + 2 * MARGIN);
     if size < LANES * length {
@@ -51,7 +55,12 @@ pub(super) fn solve<P: Point>(
 /// Solves the windows of `length` rows that begin at `starts`, with zero beyond their ends unless the system ends there, and hands over the rows that are exact.
 #[inline(always)]
 fn sweep<P: Point, const L: usize>(
-    starts: [usize; L], length: usize, sites: &[f64], values: &[P], start: EndRow<P>, end: EndRow<P>,
+    starts: [usize; L],
+    length: usize,
+    sites: &[f64],
+    values: &[P],
+    start: EndRow<P>,
+    end: EndRow<P>,
     mut keep: impl FnMut(usize, usize, P),
 ) {
     let zero = EndRow::value(P::ZERO);
@@ -137,7 +146,12 @@ mod tests {
             };
             for i in 0..size {
                 let error = (moments[i] - expected[i]).abs();
-                assert!(error <= 1e-13 * local(i), "size {size}, row {i}: {} and {}", moments[i], expected[i]);
+                assert!(
+                    error <= 1e-13 * local(i),
+                    "size {size}, row {i}: {} and {}",
+                    moments[i],
+                    expected[i]
+                );
             }
         }
     }

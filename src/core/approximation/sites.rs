@@ -50,7 +50,8 @@ pub fn check_sites(space: &SplineSpace, sites: &[f64]) -> Result<(), Approximati
         }
         index += copies;
     }
-    let violates = |k: usize| (k > n && sites[k] <= knots[k]) || (k + n + 1 < m && sites[k] >= knots[k + n + 1]);
+    let violates =
+        |k: usize| (k > n && sites[k] <= knots[k]) || (k + n + 1 < m && sites[k] >= knots[k + n + 1]);
     match (0..m).find(|&k| violates(k)) {
         Some(index) => {
             let (left, right) = space.support(index);
@@ -64,7 +65,11 @@ pub fn check_sites(space: &SplineSpace, sites: &[f64]) -> Result<(), Approximati
 pub(super) fn check_order(space: &SplineSpace, sites: &[f64]) -> Result<(), ApproximationError> {
     check_finite("site", sites)?;
     if let Some(i) = sites.windows(2).position(|pair| pair[1] < pair[0]) {
-        return Err(ApproximationError::SitesNotSorted { index: i + 1, value: sites[i + 1], previous: sites[i] });
+        return Err(ApproximationError::SitesNotSorted {
+            index: i + 1,
+            value: sites[i + 1],
+            previous: sites[i],
+        });
     }
     let (left, right) = space.parameter_interval();
     match sites.iter().position(|site| !(left..=right).contains(site)) {
@@ -131,17 +136,23 @@ pub fn midpoint_sites(space: &SplineSpace) -> Result<Vec<f64>, ApproximationErro
     let (half, intervals) = (n / 2, m.saturating_sub(n));
     let least = if n.is_multiple_of(2) { n.max(2) - 1 } else { 2 * half };
     if space.is_periodic() || intervals < least.max(1) {
-        return Err(ApproximationError::TooFewData { what: "knot intervals", least: least.max(1), found: intervals });
+        return Err(ApproximationError::TooFewData {
+            what: "knot intervals",
+            least: least.max(1),
+            found: intervals,
+        });
     }
     let expected = knots[1] - knots[0];
-    if let Some(index) =
-        knots.windows(2).position(|pair| (pair[1] - pair[0] - expected).abs() > UNIFORM * (knots[n + m] - knots[0]))
+    if let Some(index) = knots
+        .windows(2)
+        .position(|pair| (pair[1] - pair[0] - expected).abs() > UNIFORM * (knots[n + m] - knots[0]))
     {
         let length = knots[index + 1] - knots[index];
         return Err(ApproximationError::KnotsNotUniform { index, length, expected });
     }
     // Knots and midpoints alternate: even counts are knots of D, odd ones midpoints.
-    let at = |count: usize| if count % 2 == 0 { knots[n + count / 2] } else { midpoint(knots, n + count / 2) };
+    let at =
+        |count: usize| if count % 2 == 0 { knots[n + count / 2] } else { midpoint(knots, n + count / 2) };
     let regular = (n + 1) % 2;
     let (last, extra) = (2 * intervals, 2 * half);
     let is_extra = |count: usize| count < extra || last - count < extra;

@@ -67,7 +67,10 @@ pub struct SmoothingSpline<P> {
 /// `SizeMismatch`, `NonFinite`, `SitesNotSorted` unless the sites increase strictly (see [`merge_equal_sites`]), `WeightNotPositive`, `TooFewData` for fewer than
 /// two sites, `SigmaOutOfRange`.
 pub fn smoothing_spline<P: Point>(
-    sites: &[f64], values: &[P], weights: Option<&[f64]>, smoothing: Smoothing,
+    sites: &[f64],
+    values: &[P],
+    weights: Option<&[f64]>,
+    smoothing: Smoothing,
 ) -> Result<SmoothingSpline<P>, ApproximationError> {
     let (sigma, rest) = smoothing.shares()?;
     let system = Reinsch::new(sites, values, weights)?;
@@ -80,7 +83,9 @@ pub fn smoothing_spline<P: Point>(
 ///
 /// `SizeMismatch`, `NonFinite`, `SitesNotSorted` if a site is smaller than the one before, `WeightNotPositive`.
 pub fn merge_equal_sites<P: Point>(
-    sites: &[f64], values: &[P], weights: Option<&[f64]>,
+    sites: &[f64],
+    values: &[P],
+    weights: Option<&[f64]>,
 ) -> Result<(Vec<f64>, Vec<P>, Vec<f64>), ApproximationError> {
     check_length("values", sites.len(), values.len())?;
     check_finite("site", sites)?;
@@ -130,7 +135,9 @@ pub(super) struct Fit<P> {
 
 impl<'a, P: Point> Reinsch<'a, P> {
     pub(super) fn new(
-        sites: &'a [f64], values: &'a [P], weights: Option<&'a [f64]>,
+        sites: &'a [f64],
+        values: &'a [P],
+        weights: Option<&'a [f64]>,
     ) -> Result<Self, ApproximationError> {
         check_length("values", sites.len(), values.len())?;
         check_increasing(sites)?;
@@ -227,4 +234,132 @@ impl<'a, P: Point> Reinsch<'a, P> {
 
 fn square<P: Point>(point: P) -> f64 {
     (0..P::DIMENSION).map(|i| point.coordinate(i) * point.coordinate(i)).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
+    use super::*;
+    use crate::core::approximation::cubic_interpolation::natural_spline;
+    use crate::core::approximation::smoothing_choice::smoothing_for_residual;
+    use crate::core::approximation::smoothing_system::smoothing_system;
+    use crate::core::bspline::Side;
+    use glam::DVec2;
+    use proptest::prelude::*;
+
+    prop_compose! {
+        fn data()(rows in prop::collection::vec((0.05..2.0_f64, -4.0..4.0_f64, 0.2..5.0_f64), 2..15))
+            -> (Vec<f64>, Vec<f64>, Vec<f64>)
+        {
+            let x = rows.iter().scan(-1.0, |at, row| { *at += row.0; Some(*at) }).collect();
+            (x, rows.iter().map(|row| row.1).collect(), rows.iter().map(|row| row.2).collect())
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn both_systems_agree_and_the_residuals_balance((x, f, w) in data(), sigma in 0.01..0.99_f64) {
+            let fit = smoothing_spline(&x, &f, Some(&w), Smoothing::Sigma(sigma)).unwrap();
+            let (matrix, right) = smoothing_system(&x, &f, Some(&w), sigma).unwrap();
+            let left = matrix.multiply(fit.spline.coefficients()).unwrap();
+            let size = matrix.iter().fold(1.0_f64, |size, entry| size.max(entry.2.abs()));
+            for (a, b) in left.iter().zip(&right) {
+                prop_assert!((a - b).abs() < 1e-11 * size, "Q c = q: {} and {}", a, b);
+            }
+            let (mut force, mut moment, mut residual) = (0.0, 0.0, 0.0);
+            for i in 0..x.len() {
+                prop_assert!((fit.spline.evaluate(x[i]).unwrap() - fit.fitted[i]).abs() < 1e-12, "fitted {}", i);
+                let gap = f[i] - fit.fitted[i];
+                force += w[i] * gap;
+                moment += w[i] * gap * x[i];
+                residual += w[i] * gap * gap;
+            }
+            prop_assert!(force.abs() < 1e-10 && moment.abs() < 1e-10, "{} {}", force, moment);
+            prop_assert!((residual - fit.residual).abs() < 1e-11, "{} {}", residual, fit.residual);
+            let last = x.len() - 1;
+            let bends = [(x[0], Side::Right), (x[last], Side::Left)]
+                .map(|(x, side)| fit.spline.derivatives(x, 2, side).unwrap()[2]);
+            prop_assert!(bends.iter().all(|bend| bend.abs() < 1e-8), "natural ends: {:?}", bends);
+        }
+
+        #[test]
+        fn more_smoothing_leaves_more_and_bends_less((x, f, w) in data()) {
+            let fits: Vec<_> = [0.0, 0.1, 0.4, 0.8, 0.99, 1.0]
+                .into_iter()
+                .map(|sigma| smoothing_spline(&x, &f, Some(&w), Smoothing::Sigma(sigma)).unwrap())
+                .collect();
+            for pair in fits.windows(2) {
+                prop_assert!(pair[0].residual <= pair[1].residual + 1e-12, "residual");
+                prop_assert!(pair[0].roughness >= pair[1].roughness - 1e-12, "roughness");
+                prop_assert!(pair[0].degrees_of_freedom >= pair[1].degrees_of_freedom - 1e-9, "freedom");
+            }
+            prop_assert_eq!(fits[0].degrees_of_freedom, x.len() as f64, "interpolation");
+            prop_assert!((fits[5].degrees_of_freedom - 2.0).abs() < 1e-8, "a line");
+            let natural = natural_spline(&x, &f).unwrap();
+            for (a, b) in fits[0].spline.coefficients().iter().zip(natural.coefficients()) {
+                prop_assert!((a - b).abs() < 1e-9, "natural spline: {} and {}", a, b);
+            }
+            let wanted = 0.5 * fits[5].residual;
+            let (fit, sigma) = smoothing_for_residual(&x, &f, Some(&w), wanted).unwrap();
+            prop_assert!((fit.residual - wanted).abs() <= 1e-9 * (1.0 + wanted), "{} of {}", fit.residual, wanted);
+            prop_assert!((0.0..=1.0).contains(&sigma), "{}", sigma);
+        }
+
+        #[test]
+        fn the_trace_counts_the_influence_of_each_datum((x, f, w) in data(), sigma in 0.0..=1.0_f64) {
+            let trace: f64 = (0..x.len()).map(|i| {
+                let unit: Vec<f64> = (0..x.len()).map(|j| f64::from(u8::from(i == j))).collect();
+                smoothing_spline(&x, &unit, Some(&w), Smoothing::Sigma(sigma)).unwrap().fitted[i]
+            }).sum();
+            let fit = smoothing_spline(&x, &f, Some(&w), Smoothing::Sigma(sigma)).unwrap();
+            prop_assert!((trace - fit.degrees_of_freedom).abs() < 1e-8, "{} {}", trace, fit.degrees_of_freedom);
+        }
+    }
+
+    #[test]
+    fn a_double_weight_is_two_data_at_one_site() {
+        let (x, f, w) = merge_equal_sites(
+            &[0.0, 1.0, 1.0, 2.0, 4.0],
+            &[1.0, 3.0, 0.0, 2.0, 5.0],
+            Some(&[1.0, 1.0, 2.0, 1.0, 1.0]),
+        )
+        .unwrap();
+        assert_eq!(
+            (x.as_slice(), w.as_slice()),
+            (&[0.0, 1.0, 2.0, 4.0][..], &[1.0, 3.0, 1.0, 1.0][..]),
+            "merged"
+        );
+        assert!((f[1] - 1.0).abs() < 1e-15, "the mean of 3, 0 and 0");
+        assert_eq!(
+            merge_equal_sites(&[1.0, 0.0], &[0.0; 2], None).unwrap_err().name(),
+            "SitesNotSorted",
+            "falls"
+        );
+    }
+
+    #[test]
+    fn lines_are_returned_unchanged_and_bad_data_are_named() {
+        let x = [0.0, 1.0, 1.5, 4.0];
+        let line: Vec<DVec2> = x.iter().map(|&x| DVec2::new(2.0 * x - 1.0, 3.0)).collect();
+        for smoothing in
+            [Smoothing::Sigma(0.0), Smoothing::Sigma(0.5), Smoothing::Sigma(1.0), Smoothing::Lambda(1e9)]
+        {
+            let fit = smoothing_spline(&x, &line, None, smoothing).unwrap();
+            assert!(fit.residual < 1e-28 && fit.roughness < 1e-28, "{smoothing:?}: {fit:?}");
+        }
+        let name = |x: &[f64], w: Option<&[f64]>, smoothing| {
+            smoothing_spline(x, &vec![1.0; x.len()], w, smoothing).unwrap_err().name()
+        };
+        for bad in [Smoothing::Sigma(1.5), Smoothing::Sigma(f64::NAN), Smoothing::Lambda(-1.0)] {
+            assert_eq!(name(&x, None, bad), "SigmaOutOfRange", "{bad:?}");
+        }
+        let half = Smoothing::Sigma(0.5);
+        assert_eq!(name(&[0.0, 1.0, 1.0], None, half), "SitesNotSorted", "equal sites");
+        assert_eq!(name(&[0.0], None, half), "TooFewData", "one site");
+        assert_eq!(name(&x, Some(&[1.0, 1.0, -1.0, 1.0]), half), "WeightNotPositive", "negative");
+        assert_eq!(name(&x, Some(&[1.0, f64::NAN, 1.0, 1.0]), half), "WeightNotPositive", "no number");
+        let error = smoothing_for_residual(&x, &line, None, -1.0).unwrap_err();
+        assert_eq!(error.name(), "InvalidTolerance", "negative residual");
+    }
 }

@@ -37,7 +37,9 @@ pub struct CrossValidation<P> {
 ///
 /// As [`smoothing_spline`](super::smoothing_spline), `TooFewData` for fewer than four sites.
 pub fn smoothing_by_cross_validation<P: Point>(
-    sites: &[f64], values: &[P], weights: Option<&[f64]>,
+    sites: &[f64],
+    values: &[P],
+    weights: Option<&[f64]>,
 ) -> Result<CrossValidation<P>, ApproximationError> {
     let system = Reinsch::new(sites, values, weights)?;
     let count = sites.len();
@@ -88,7 +90,10 @@ pub fn smoothing_by_cross_validation<P: Point>(
 ///
 /// As [`smoothing_spline`](super::smoothing_spline), `InvalidTolerance` for a residual that is negative or not a number.
 pub fn smoothing_for_residual<P: Point>(
-    sites: &[f64], values: &[P], weights: Option<&[f64]>, residual: f64,
+    sites: &[f64],
+    values: &[P],
+    weights: Option<&[f64]>,
+    residual: f64,
 ) -> Result<(SmoothingSpline<P>, f64), ApproximationError> {
     let system = Reinsch::new(sites, values, weights)?;
     if !(residual >= 0.0) {

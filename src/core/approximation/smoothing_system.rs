@@ -19,7 +19,10 @@ use crate::core::point::Point;
 ///
 /// `SizeMismatch`, `NonFinite`, `SitesNotSorted`, `WeightNotPositive`, `SigmaOutOfRange`; those of [`SplineSpace::from_breaks`].
 pub fn smoothing_system<P: Point>(
-    sites: &[f64], values: &[P], weights: Option<&[f64]>, sigma: f64,
+    sites: &[f64],
+    values: &[P],
+    weights: Option<&[f64]>,
+    sigma: f64,
 ) -> Result<(BandMatrix, Vec<P>), ApproximationError> {
     check_length("values", sites.len(), values.len())?;
     check_increasing(sites)?;

@@ -102,7 +102,13 @@ impl SplineSpace {
 
     /// Writes the derivatives of order `derivative` of the B-splines `span − n … span` at `x`, those of the pieces over the knot interval `span`, into `n + 1` places; zeros above
     /// the degree. `span` is an index as [`SplineSpace::span`] returns it.
-    pub(in crate::core) fn write_basis_in_span(&self, span: usize, x: f64, derivative: usize, values: &mut [f64]) {
+    pub(in crate::core) fn write_basis_in_span(
+        &self,
+        span: usize,
+        x: f64,
+        derivative: usize,
+        values: &mut [f64],
+    ) {
         let (n, knots) = (self.degree(), self.evaluation_knots());
         if derivative > n {
             return values.fill(0.0);

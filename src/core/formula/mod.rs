@@ -188,7 +188,10 @@ mod tests {
         for (text, expected) in cases {
             let got = Formula::parse(text, &["x"]).unwrap().derivatives(&[x], 0, 3);
             for (got, expected) in got.iter().zip(expected) {
-                assert!((got - expected).abs() < 1e-12 * expected.abs().max(1.0), "{text}: {got}, {expected}");
+                assert!(
+                    (got - expected).abs() < 1e-12 * expected.abs().max(1.0),
+                    "{text}: {got}, {expected}"
+                );
             }
         }
     }

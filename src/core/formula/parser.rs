@@ -40,7 +40,9 @@ pub(super) fn parse(text: &str, variables: &[&str]) -> Result<Program, FormulaEr
     parser.sum()?;
     match parser.peek() {
         (_, Token::End) => Ok(parser.program),
-        (position, Token::Sign(')')) => Err(FormulaError::UnbalancedBracket { position: *position, bracket: ')' }),
+        (position, Token::Sign(')')) => {
+            Err(FormulaError::UnbalancedBracket { position: *position, bracket: ')' })
+        }
         _ => Err(parser.unexpected("an operator or the end")),
     }
 }
@@ -307,7 +309,11 @@ mod tests {
     #[test]
     fn an_error_is_a_sentence() {
         let sentence = |text: &str| parse(text, &["x", "y"]).unwrap_err().to_string();
-        assert_eq!(sentence("2*foo"), "at character 3: the name foo is unknown; the variables are x, y", "name");
+        assert_eq!(
+            sentence("2*foo"),
+            "at character 3: the name foo is unknown; the variables are x, y",
+            "name"
+        );
         assert_eq!(sentence("(x"), "at character 1: the bracket ( has no partner", "bracket");
         assert_eq!(sentence("atan2(x)"), "at character 1: atan2 takes two arguments, found 1", "arguments");
     }

@@ -190,8 +190,20 @@ impl Binary {
             Self::Divide => a / b,
             Self::Power => power(a, b),
             // `f64::min` would drop a NaN.
-            Self::Min => if a.is_nan() || a <= b { a } else { b },
-            Self::Max => if a.is_nan() || a >= b { a } else { b },
+            Self::Min => {
+                if a.is_nan() || a <= b {
+                    a
+                } else {
+                    b
+                }
+            }
+            Self::Max => {
+                if a.is_nan() || a >= b {
+                    a
+                } else {
+                    b
+                }
+            }
             Self::Atan2 => a.atan2(b),
             Self::Hypot => a.hypot(b),
         }

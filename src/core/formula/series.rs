@@ -168,6 +168,11 @@ fn logarithm(u: &mut [f64], spare: &mut [f64]) {
 /// `uʳ` in `u`. A zero of multiplicity `q` at `t = 0` becomes one of multiplicity `q r`, if that is an integer.
 fn real_power(u: &mut [f64], spare: &mut [f64], exponent: f64) {
     let length = u.len();
+    if exponent == 0.0 {
+        u[1..].fill(0.0);
+        u[0] = 1.0;
+        return;
+    }
     let Some(zeros) = u.iter().position(|&c| c != 0.0) else {
         u[0] = power(0.0, exponent);
         return;

@@ -68,7 +68,8 @@ impl BandMatrix {
 
     /// Entry `(i, j)`; 0 outside the band and outside the matrix.
     pub fn get(&self, i: usize, j: usize) -> f64 {
-        let place = self.first.get(i).and_then(|first| j.checked_sub(*first)).filter(|place| *place < self.width);
+        let place =
+            self.first.get(i).and_then(|first| j.checked_sub(*first)).filter(|place| *place < self.width);
         place.map_or(0.0, |place| self.entries[i * self.width + place])
     }
 

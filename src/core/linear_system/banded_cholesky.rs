@@ -70,7 +70,8 @@ impl BandCholesky {
         for i in (0..size).rev() {
             let below = i + 1..(i + width).min(size);
             for j in below.clone() {
-                inverse[at(i, j)] = -below.clone().map(|k| self.rows[at(k, i)] * inverse[at(k, j)]).sum::<f64>();
+                inverse[at(i, j)] =
+                    -below.clone().map(|k| self.rows[at(k, i)] * inverse[at(k, j)]).sum::<f64>();
             }
             let sum: f64 = below.map(|k| self.rows[at(k, i)] * inverse[at(i, k)]).sum();
             inverse[at(i, i)] = self.rows[at(i, i)] - sum;
@@ -146,10 +147,18 @@ mod tests {
             let entry = |i: usize, j: usize| {
                 let gap = i.abs_diff(j);
                 let off = ((i.min(j) * 5 + gap * 3) % 7) as f64 / 7.0 - 0.5;
-                if gap == 0 { 6.0 } else if gap <= half { off } else { 0.0 }
+                if gap == 0 {
+                    6.0
+                } else if gap <= half {
+                    off
+                } else {
+                    0.0
+                }
             };
             let rows = (0..size)
-                .flat_map(|i| (0..=half).map(move |p| if i + p < half { f64::NAN } else { entry(i, i + p - half) }))
+                .flat_map(|i| {
+                    (0..=half).map(move |p| if i + p < half { f64::NAN } else { entry(i, i + p - half) })
+                })
                 .collect();
             let factors = BandCholesky::factor(half, rows).unwrap();
             let inverse = factors.inverse_band();
@@ -163,7 +172,11 @@ mod tests {
                 }
                 for i in column..(column + half + 1).min(size) {
                     let found = inverse[i * (half + 1) + half + column - i];
-                    assert!((found - unit[i]).abs() < 1e-15, "inverse ({i}, {column}): {found} and {}", unit[i]);
+                    assert!(
+                        (found - unit[i]).abs() < 1e-15,
+                        "inverse ({i}, {column}): {found} and {}",
+                        unit[i]
+                    );
                 }
             }
         }

@@ -36,7 +36,11 @@ impl<P: Point> BandLeastSquares<P> {
     pub fn add(&mut self, first: usize, row: &mut [f64], mut value: P) -> Result<(), BandError> {
         let (width, columns) = (self.width, self.right.len());
         if row.len() != width {
-            return Err(BandError::SizeMismatch { what: "entries of a row", expected: width, found: row.len() });
+            return Err(BandError::SizeMismatch {
+                what: "entries of a row",
+                expected: width,
+                found: row.len(),
+            });
         }
         if first + width > columns {
             return Err(BandError::RowOutsideBand { row: 0, first, least: 0, most: columns - width });

@@ -75,7 +75,11 @@ impl BandLu {
 
 #[inline(always)]
 fn eliminate(
-    width: usize, first: &[usize], entries: &mut [f64], reciprocals: &mut Vec<f64>, tiny: f64,
+    width: usize,
+    first: &[usize],
+    entries: &mut [f64],
+    reciprocals: &mut Vec<f64>,
+    tiny: f64,
 ) -> Result<(), BandError> {
     for i in 0..first.len() {
         let (done, rest) = entries.split_at_mut(i * width);
@@ -265,8 +269,16 @@ mod tests {
     fn rows_keep_to_the_band() {
         let mut matrix = BandMatrix::new(4, 2);
         matrix.push_row(1, &[1.0, 1.0]).unwrap();
-        assert_eq!(matrix.push_row(0, &[1.0, 1.0]).unwrap_err().name(), "OutsideInterval", "left of the row above");
-        assert_eq!(matrix.push_row(3, &[1.0, 1.0]).unwrap_err().name(), "OutsideInterval", "beyond the last column");
+        assert_eq!(
+            matrix.push_row(0, &[1.0, 1.0]).unwrap_err().name(),
+            "OutsideInterval",
+            "left of the row above"
+        );
+        assert_eq!(
+            matrix.push_row(3, &[1.0, 1.0]).unwrap_err().name(),
+            "OutsideInterval",
+            "beyond the last column"
+        );
         assert_eq!(matrix.push_row(1, &[1.0]).unwrap_err().name(), "SizeMismatch", "too short");
         assert_eq!(BandLu::factor(matrix).unwrap_err().name(), "SizeMismatch", "not square");
     }
