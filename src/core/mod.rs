@@ -31,10 +31,12 @@
 //!
 //! K. Höllig, J. Hörner, *Approximation and Modeling with B-Splines*, SIAM 2013, has the sections.
 
+pub mod approximation;
 pub mod bezier;
 pub mod bspline;
 pub mod domain;
 pub mod finite_element;
+pub mod formula;
 pub mod linear_system;
 pub mod point;
 pub mod progress;

@@ -96,11 +96,30 @@ impl SplineSpace {
         }
         let x = self.reduce(x)?;
         let span = self.span(x)?;
-        values[0] = 1.0;
-        for level in 1..=n {
-            raise(self.evaluation_knots(), span, level, x, values);
-        }
+        self.write_basis_in_span(span, x, 0, values);
         Ok(span - n)
+    }
+
+    /// Writes the derivatives of order `derivative` of the B-splines `span − n … span` at `x`, those of the pieces over the knot interval `span`, into `n + 1` places; zeros above
+    /// the degree. `span` is an index as [`SplineSpace::span`] returns it.
+    pub(in crate::core) fn write_basis_in_span(
+        &self,
+        span: usize,
+        x: f64,
+        derivative: usize,
+        values: &mut [f64],
+    ) {
+        let (n, knots) = (self.degree(), self.evaluation_knots());
+        if derivative > n {
+            return values.fill(0.0);
+        }
+        values[0] = 1.0;
+        for level in 1..=n - derivative {
+            raise(knots, span, level, x, values);
+        }
+        for level in n - derivative + 1..=n {
+            differentiate(knots, span, level, values);
+        }
     }
 
     /// All levels of the recurrence at `x`.
@@ -131,6 +150,18 @@ pub(super) fn raise(knots: &[f64], span: usize, level: usize, x: f64, values: &m
         let share = values[j] / (right - left);
         values[j] = from_left + (right - x) * share;
         from_left = (x - left) * share;
+    }
+    values[level] = from_left;
+}
+
+/// From the `level` values of degree `level − 1` to the `level + 1` derivatives of degree `level`.
+fn differentiate(knots: &[f64], span: usize, level: usize, values: &mut [f64]) {
+    let mut from_left = 0.0;
+    for j in 0..level {
+        let width = knots[span + 1 + j] - knots[span + 1 + j - level];
+        let share = values[j] * (level as f64 / width);
+        values[j] = from_left - share;
+        from_left = share;
     }
     values[level] = from_left;
 }

@@ -1,0 +1,87 @@
+//! W3: cubic not-a-knot and natural interpolation through N points, quintic interpolation; also smoothing and least squares of the same size.
+//!
+//! Reads `PEERS_HOME/data/i_x_N.f64` and `i_y_N.f64` (raw f64); without them, data of the same shape. One JSON line per measurement.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use spline_lab::core::approximation::{
+    EndConditions, Smoothing, cubic_interpolation, interpolate, least_squares, not_a_knot_space,
+    smoothing_spline,
+};
+use spline_lab::core::bspline::{EndKnots, SplineSpace};
+
+fn main() {
+    for count in [1_000, 100_000, 1_000_000] {
+        let (x, y) = data(count);
+        let cubic = |ends| cubic_interpolation(&x, &y, ends).expect("the sites increase");
+        measure("W3-cubic", count, "not-a-knot", || cubic(EndConditions::NotAKnot));
+        measure("W3-cubic-natural", count, "natural ends", || cubic(EndConditions::Natural));
+        if count == 100_000 {
+            measure("W3-quintic", count, "degree 5, not-a-knot, banded LU without pivoting", || {
+                let space = not_a_knot_space(5, &x).expect("the sites increase");
+                interpolate(space, &x, &y).expect("the sites suit the knots")
+            });
+            measure("W4-smoothing", count, "lambda 1e-9, with degrees of freedom", || {
+                smoothing_spline(&x, &y, None, Smoothing::Lambda(1e-9)).expect("the sites increase")
+            });
+        }
+        if count == 1_000_000 {
+            let breaks: Vec<f64> = (0..198).map(|i| f64::from(i) / 197.0).collect();
+            let space =
+                SplineSpace::from_breaks(3, &breaks, EndKnots::Interpolating).expect("increasing breaks");
+            measure("W5-least-squares", count, "200 coefficients", || {
+                least_squares(space.clone(), &x, &y, None).expect("data everywhere")
+            });
+        }
+    }
+}
+
+fn data(count: usize) -> (Vec<f64>, Vec<f64>) {
+    let read = |name: &str| -> Option<Vec<f64>> {
+        let home = std::env::var_os("PEERS_HOME")?;
+        let bytes =
+            std::fs::read(std::path::Path::new(&home).join("data").join(format!("{name}_{count}.f64")))
+                .ok()?;
+        let number = |chunk: &[u8]| f64::from_le_bytes(chunk.try_into().expect("eight bytes"));
+        Some(bytes.chunks_exact(8).map(number).collect())
+    };
+    if let (Some(x), Some(y)) = (read("i_x"), read("i_y")) {
+        return (x, y);
+    }
+    let mut state = 12345_u64;
+    let mut at = 0.0;
+    let mut x: Vec<f64> = (0..count)
+        .map(|i| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            at += if i > 0 { 0.2 + 1.6 * (state >> 11) as f64 / (1_u64 << 53) as f64 } else { 0.0 };
+            at
+        })
+        .collect();
+    x.iter_mut().for_each(|x| *x /= at);
+    let y = x.iter().map(|x| (40.0 * x).sin() + 0.3 * (171.0 * x * x).cos()).collect();
+    (x, y)
+}
+
+/// Median and least of the wall times of 15 runs, after one that warms up.
+fn measure<T>(workload: &str, count: usize, how: &str, mut run: impl FnMut() -> T) {
+    black_box(run());
+    let mut times: Vec<f64> = (0..15)
+        .map(|_| {
+            let start = Instant::now();
+            let result = black_box(run());
+            let time = start.elapsed().as_secs_f64();
+            drop(result);
+            time
+        })
+        .collect();
+    times.sort_by(f64::total_cmp);
+    let (median, least, reps) = (times[times.len() / 2], times[0], times.len());
+    let line = format!(
+        "{{\"workload\": \"{workload}\", \"peer\": \"spline-lab {}\", \"n\": {count}, \"median_s\": {median:e}, \"min_s\": {least:e}, \
+         \"reps\": {reps}, \"threads\": 1, \"how\": \"{how}\", \"items_per_s\": {:e}}}",
+        env!("CARGO_PKG_VERSION"),
+        count as f64 / median
+    );
+    println!("{line}");
+}
