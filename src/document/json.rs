@@ -22,6 +22,7 @@ use crate::core::spline_curve::Nurbs;
 use crate::document::apply::{MAX_ID, MAX_OBJECTS, MAX_POINTS, check_name};
 use crate::document::contents::Document;
 use crate::document::display::CurveDisplay;
+use crate::document::eye::EyeError;
 use crate::document::file_error::FileError;
 use crate::document::json_writer::Node;
 use crate::document::object::{Content, Object, ObjectId};
@@ -271,5 +272,6 @@ fn check_view(view: &View) -> Result<(), FileError> {
     if scale <= 0.0 {
         return Err(FileError::value("view.camera.scale", format!("{scale} is not positive")));
     }
-    Ok(())
+    let eye_error = |error: EyeError| FileError::value(format!("view.eye.{}", error.field), error);
+    view.eye.check().map_err(eye_error)
 }
