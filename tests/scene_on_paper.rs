@@ -84,8 +84,7 @@ fn svg_of_a_scene_is_well_formed_and_keeps_layers_and_document() {
             })
             .collect();
         let names: Vec<&str> = layers.iter().map(|layer| layer.0).collect();
-        let expected =
-            ["surfaces", "torus: parameter lines", "torus: points", "torus: name"];
+        let expected = ["surfaces", "torus: parameter lines", "torus: points", "torus: name"];
         assert_eq!(names, expected, "{count} facets around");
         let surfaces = layers[0].1.children().filter(|node| node.has_tag_name(tag)).count();
         assert!(surfaces > 0, "{count} facets around: surfaces as {tag}");
@@ -123,9 +122,8 @@ fn png_and_pdf_show_the_surface() {
 fn a_field_is_drawn_in_its_colours() {
     let theme = Theme::light();
     let count = 41;
-    let points: Vec<DVec2> = (0..count * count)
-        .map(|k| DVec2::new((k % count) as f64, (k / count) as f64) / 20.0 - 1.0)
-        .collect();
+    let points: Vec<DVec2> =
+        (0..count * count).map(|k| DVec2::new((k % count) as f64, (k / count) as f64) / 20.0 - 1.0).collect();
     let values = points.iter().map(|point| point.length_squared()).collect();
     let field = Field::on_grid(count, count, points, values).unwrap();
     let scale = ColorScale::new(0.0, 2.0, ColorMap::Viridis).unwrap();

@@ -21,8 +21,8 @@ const TICK_SPACING: f64 = 32.0;
 const SIZES: (f64, f64) = (9.0, 10.0);
 /// Part of the view's height that the bar takes.
 const HEIGHT: f64 = 0.6;
-/// The colours are drawn as so many pieces, linear within each.
-const PIECES: u32 = 64;
+/// The colours are drawn as so many strips.
+const STRIPS: u32 = 128;
 
 /// A bar on a ground of its own over the right edge of `view`, the largest value above; `title` stands over it, typeset by
 /// [`crate::figure::formula`] if it is between two `$`.
@@ -52,13 +52,16 @@ pub fn color_bar(
     let ground =
         box_of(left - GAP, top - title_room - 2.0 * GAP, left + inner + GAP, top + height + 2.0 * GAP);
     let mut items = vec![Item::Path(Path::polygon(&ground, None, Some(theme.panel.with_opacity(0.85))))];
-    let rows = (0..=PIECES).map(|row| f64::from(row) / f64::from(PIECES));
-    let points = rows.clone().flat_map(|t| {
-        let y = top + height * (1.0 - t);
-        [place(left, y), place(left + WIDTH, y)]
+    // Strips of one colour each: exporters draw them as they are.
+    let strips = (0..STRIPS).map(|strip| f64::from(strip) / f64::from(STRIPS));
+    let step = 1.0 / f64::from(STRIPS);
+    let points = strips.clone().flat_map(|t| {
+        let (lower, upper) = (top + height * (1.0 - t), top + height * (1.0 - t - step));
+        box_of(left, upper, left + WIDTH, lower)
     });
-    let colors = rows.flat_map(|t| [scale.map().color(t); 2]);
-    let triangles = (0..PIECES).flat_map(|row| [[0, 1, 3], [0, 3, 2]].map(|half| half.map(|i| i + 2 * row)));
+    let colors = strips.flat_map(|t| [scale.map().color(t + 0.5 * step); 4]);
+    let triangles =
+        (0..STRIPS).flat_map(|strip| [[0, 1, 2], [0, 2, 3]].map(|half| half.map(|i| i + 4 * strip)));
     items.push(Item::Mesh(Mesh::new(points.collect(), colors.collect(), triangles.collect())?));
     let axis = theme.stroke(theme.axis, 0.75);
     let frame = box_of(left, top, left + WIDTH, top + height);

@@ -2,6 +2,8 @@
 //!
 //! A field is linear on each triangle, given by its values at the vertices; bands and isolines are exact for that.
 
+use std::cmp::Ordering;
+
 use glam::DVec2;
 
 use crate::core::point::Point as _;
@@ -121,12 +123,12 @@ impl Field {
                 triangles.extend((2..polygon.len() as u32).map(|i| [first, first + i - 1, first + i]));
             };
             for (band, &level) in levels.iter().enumerate() {
-                let lower = part(&rest, |value| level - value);
+                let lower = part(&rest, level, Ordering::Less);
                 if lower.is_empty() {
                     continue;
                 }
                 put(&lower, colors[band]);
-                rest = part(&rest, |value| value - level);
+                rest = part(&rest, level, Ordering::Greater);
             }
             if rest.len() >= 3 {
                 put(&rest, colors[count - 1]);
@@ -141,21 +143,24 @@ impl Field {
     }
 }
 
-/// The part of a convex polygon where `room` of the value is positive, with its edge; nothing if it is positive nowhere.
-fn part(polygon: &[(DVec2, f64)], room: impl Fn(f64) -> f64) -> Vec<(DVec2, f64)> {
+/// The part of a convex polygon with values on one side of `level`, with its edge; nothing if no corner lies beyond.
+fn part(polygon: &[(DVec2, f64)], level: f64, side: Ordering) -> Vec<(DVec2, f64)> {
+    let is_beyond = |value: f64| value.partial_cmp(&level) == Some(side);
     let mut part = Vec::with_capacity(polygon.len() + 1);
-    if !polygon.iter().any(|&(_, value)| room(value) > 0.0) {
+    if !polygon.iter().any(|&(_, value)| is_beyond(value)) {
         return part;
     }
     for (i, &(point, value)) in polygon.iter().enumerate() {
         let (next, next_value) = polygon[(i + 1) % polygon.len()];
-        let (here, there) = (room(value), room(next_value));
-        if here >= 0.0 {
+        if is_beyond(value) || value == level {
             part.push((point, value));
         }
-        if (here > 0.0 && there < 0.0) || (here < 0.0 && there > 0.0) {
-            let t = here / (here - there);
-            part.push((point.mix(next, t), value.mix(next_value, t)));
+        if (value < level && level < next_value) || (next_value < level && level < value) {
+            // Always from the lower end, so that neighbours agree on the point bit for bit.
+            let (low, high) = if value < next_value { (point, next) } else { (next, point) };
+            let (least, largest) = (value.min(next_value), value.max(next_value));
+            let (before, run) = (0.5 * level - 0.5 * least, 0.5 * largest - 0.5 * least);
+            part.push((low.mix(high, before / run), level));
         }
     }
     part

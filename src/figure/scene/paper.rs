@@ -9,7 +9,7 @@ use crate::core::point::Point as _;
 use crate::figure::clip::segment_in_box;
 use crate::figure::error::FigureError;
 use crate::figure::mesh::{Image, Mesh, PlacedImage};
-use crate::figure::picture::{Item, Label, Marker, Path, Picture, Stroke, Viewport};
+use crate::figure::picture::{Item, Label, Marker, Path, Picture, Viewport};
 use crate::figure::raster::{Corner, Raster, rasterize};
 use crate::figure::scene::shading::{Facet, depth_of, facets, nearness, sort_from_far};
 use crate::figure::scene::{EyeView, Light, Line, Points, Scene, SceneItem, SceneLabel};
@@ -314,7 +314,7 @@ mod tests {
 
     use super::*;
     use crate::document::EyeState;
-    use crate::figure::picture::{Color, MarkerShape, Segment};
+    use crate::figure::picture::{Color, MarkerShape, Segment, Stroke};
     use crate::figure::scene::{Eye, StandardView, Triangles};
     use crate::figure::theme::Theme;
 

@@ -78,17 +78,13 @@ impl Triangles {
         &self.colors
     }
 
-    /// The corners of triangle number `index`.
-    ///
-    /// # Panics
-    ///
-    /// Like indexing, if there is no such triangle.
-    pub fn corners(&self, index: usize) -> [DVec3; 3] {
+    /// The corners of triangle number `index`, which must be below the number of triangles, here and in the following.
+    pub(crate) fn corners(&self, index: usize) -> [DVec3; 3] {
         self.triangles[index].map(|vertex| self.positions[vertex as usize])
     }
 
     /// Unit normal of a face, zero if it has no area.
-    pub fn face_normal(&self, index: usize) -> DVec3 {
+    pub(crate) fn face_normal(&self, index: usize) -> DVec3 {
         let [a, b, c] = self.corners(index);
         // Sides are scaled, so that neither tiny nor huge triangles lose their direction.
         let size = (b - a).abs().max((c - a).abs()).max_element();
@@ -96,7 +92,7 @@ impl Triangles {
     }
 
     /// The normals at the corners of a face: those of its vertices, its own where they are missing.
-    pub fn corner_normals(&self, index: usize) -> [DVec3; 3] {
+    pub(crate) fn corner_normals(&self, index: usize) -> [DVec3; 3] {
         let face = self.face_normal(index);
         self.triangles[index].map(|vertex| {
             let normal = self.normals.get(vertex as usize).copied().unwrap_or_default();
@@ -105,7 +101,7 @@ impl Triangles {
     }
 
     /// The colours at the corners of a face on its front or back side.
-    pub fn corner_colors(&self, index: usize, is_front: bool) -> [Color; 3] {
+    pub(crate) fn corner_colors(&self, index: usize, is_front: bool) -> [Color; 3] {
         let back = self.back_color.filter(|_| !is_front);
         self.triangles[index]
             .map(|vertex| back.or_else(|| self.colors.get(vertex as usize).copied()).unwrap_or(self.color))
