@@ -137,7 +137,10 @@ impl Field {
         Mesh::new(points, inks, triangles)
     }
 
-    /// The lines on which the field has the value `level`, as [`isolines`] describes them.
+    /// The lines on which the field has the value `level`; none if that is not a number.
+    ///
+    /// Edges that lie on the level as a whole belong to them; of an area on the level they are the rim where other values adjoin
+    /// it. Where more than two pieces meet, lines go on as straight as they can.
     pub fn isolines(&self, level: f64) -> Vec<Isoline> {
         isolines(&self.points, &self.values, &self.triangles, level)
     }

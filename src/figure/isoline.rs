@@ -33,11 +33,8 @@ impl Isoline {
 /// Where a line enters or leaves a triangle: `(i, i)` is vertex i, `(i, j)` with `i < j` a crossing of that edge.
 type Node = (u32, u32);
 
-/// The lines on which the field over `triangles`, linear on each and with `values` at `points`, has the value `level`.
-///
-/// Edges that lie on the level as a whole belong to them; of an area on the level they are the rim where other values adjoin it.
-/// Where more than two pieces meet, lines go on as straight as they can. Nothing is found for a level that is not a number.
-/// Indices must be valid, as those of [`crate::figure::field::Field`] are.
+/// The lines on which the field over `triangles`, linear on each and with `values` at `points`, has the value `level`,
+/// as [`crate::figure::field::Field::isolines`] describes them. Indices must be valid, as those of a field are.
 pub(crate) fn isolines(points: &[DVec2], values: &[f64], triangles: &[[u32; 3]], level: f64) -> Vec<Isoline> {
     let mut neighbours: BTreeMap<Node, BTreeSet<Node>> = BTreeMap::new();
     for &corners in triangles {

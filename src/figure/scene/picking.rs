@@ -48,7 +48,7 @@ pub fn nearest_point(view: &EyeView, points: &[DVec3], page: DVec2, within: f64)
         let seen = view.project(point)?;
         Some(PointHit { index, distance: seen.page.distance(page), depth: seen.depth })
     });
-    seen.filter(|hit| hit.distance <= within).min_by(|a, b| before(a, b))
+    seen.filter(|hit| hit.distance <= within).min_by(before)
 }
 
 fn before(a: &PointHit, b: &PointHit) -> std::cmp::Ordering {
