@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use crate::exchange::page::PageItem;
+use crate::exchange::page::{Medium, PageItem};
 use crate::figure::mesh::{Image, Mesh, PlacedImage};
 use crate::figure::picture::{Color, Path, Stroke, Viewport};
 use crate::figure::raster::{Corner, rasterize};
@@ -32,8 +32,8 @@ pub(super) fn image_on_page<'a>(placed: &PlacedImage, view: &Viewport) -> Option
     (is_box && has_pixels).then(|| PageItem::Image { corner, size, image: Arc::clone(&placed.image) })
 }
 
-/// The mesh as polygons or as an image with `pixels_per_point`.
-pub(super) fn mesh_on_page<'a>(mesh: &Mesh, view: &Viewport, pixels_per_point: f64) -> Vec<PageItem<'a>> {
+/// The mesh as polygons or as an image.
+pub(super) fn mesh_on_page<'a>(mesh: &Mesh, view: &Viewport, medium: Medium) -> Vec<PageItem<'a>> {
     let on_page = || {
         mesh.corners()
             .map(|corners| corners.map(|(point, color)| (view.page_from_world(point), color)))
@@ -45,14 +45,15 @@ pub(super) fn mesh_on_page<'a>(mesh: &Mesh, view: &Viewport, pixels_per_point: f
                     && low.cmple(view.size).all()
             })
     };
-    for step in COLOR_STEPS {
+    let steps = COLOR_STEPS.into_iter().filter(|_| medium == Medium::Vectors);
+    for step in steps {
         let mut counts = on_page().map(|corners| parts(&corners, step).pow(2));
         let count = counts.try_fold(0, |sum, count| (sum + count <= MOST_PIECES).then_some(sum + count));
         if count.is_some() {
             return on_page().flat_map(|corners| pieces(&corners, parts(&corners, step))).collect();
         }
     }
-    image_of(on_page(), view, pixels_per_point).into_iter().collect()
+    image_of(on_page(), view, medium.pixels_per_point()).into_iter().collect()
 }
 
 fn bounds(points: impl Iterator<Item = DVec2>) -> (DVec2, DVec2) {
@@ -149,9 +150,9 @@ mod tests {
 
     #[test]
     fn a_plain_triangle_is_one_polygon_and_a_ramp_many_that_fill_it() {
-        let plain = mesh_on_page(&ramp([0x12_34_56; 3]), &view(), 1.0);
+        let plain = mesh_on_page(&ramp([0x12_34_56; 3]), &view(), Medium::Vectors);
         assert_eq!(plain.len(), 1, "one colour");
-        let ramp = mesh_on_page(&ramp([0x00_00_00, 0x64_00_00, 0x00_00_00]), &view(), 1.0);
+        let ramp = mesh_on_page(&ramp([0x00_00_00, 0x64_00_00, 0x00_00_00]), &view(), Medium::Vectors);
         assert_eq!(ramp.len(), 169, "13 steps of at most 8 in 100");
         let mut area = 0.0;
         for item in &ramp {
@@ -176,26 +177,28 @@ mod tests {
 
     #[test]
     fn many_colours_become_an_image_of_what_is_on_the_page() {
-        let count = 30_000u32;
+        let count = 80_000u32;
         let points = (0..count).flat_map(|k| {
-            let at = DVec2::new(f64::from(k % 200) * 0.1 - 5.0, f64::from(k / 200) * 0.1);
-            [at, at + DVec2::new(0.1, 0.0), at + DVec2::new(0.0, 0.1)]
+            let at = DVec2::new(f64::from(k % 400) * 0.05 - 5.0, f64::from(k / 400) * 0.05);
+            [at, at + DVec2::new(0.05, 0.0), at + DVec2::new(0.0, 0.05)]
         });
         let colors = vec![Color::hex(0x80_80_80); 3 * count as usize];
         let triangles = (0..count).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
         let mesh = Mesh::new(points.collect(), colors, triangles).unwrap();
-        let items = mesh_on_page(&mesh, &view(), 2.0);
+        let items = mesh_on_page(&mesh, &view(), Medium::Pixels(2.0));
         let [PageItem::Image { corner, size, image }] = items.as_slice() else {
             panic!("{} items", items.len())
         };
         assert_eq!((*corner, *size), (DVec2::ZERO, DVec2::splat(100.0)), "cut at the page");
         assert_eq!((image.width(), image.height()), (200, 200), "2 pixels per pt");
+        let enlargeable = mesh_on_page(&mesh, &view(), Medium::Vectors);
+        assert!(matches!(enlargeable[..], [PageItem::Image { .. }]), "too many for polygons");
     }
 
     #[test]
     fn places_without_a_page_are_left_out() {
         let nowhere = Viewport { scale: f64::NAN, ..view() };
-        assert!(mesh_on_page(&ramp([0; 3]), &nowhere, 1.0).is_empty(), "no place");
+        assert!(mesh_on_page(&ramp([0; 3]), &nowhere, Medium::Vectors).is_empty(), "no place");
         let image = Arc::new(Image::new(1, 1, vec![0; 4]).unwrap());
         for (low, high) in [(DVec2::ZERO, DVec2::ZERO), (DVec2::ONE, DVec2::ZERO), (DVec2::NAN, DVec2::ONE)] {
             let placed = PlacedImage { low, high, image: Arc::clone(&image) };

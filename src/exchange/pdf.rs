@@ -13,7 +13,7 @@ use krilla::surface::Surface;
 use krilla::text::{Font, GlyphId, KrillaGlyph};
 use thiserror::Error;
 
-use crate::exchange::page::{PIXELS_PER_POINT, PageItem, lay_out};
+use crate::exchange::page::{Medium, PageItem, lay_out};
 use crate::figure::font_metrics::{FontFace, letter_metrics, runs, text_width};
 use crate::figure::formula::{FormulaLayout, Rule};
 use crate::figure::mesh::Image;
@@ -66,7 +66,7 @@ pub fn write_pdf(picture: &Picture, view: &Viewport) -> Result<Vec<u8>, PdfError
         let corners = [DVec2::ZERO, DVec2::new(view.size.x, 0.0), view.size, DVec2::new(0.0, view.size.y)];
         draw_path(&mut surface, &Path::polygon(&corners, None, Some(color)));
     }
-    for layer in lay_out(picture, view, PIXELS_PER_POINT) {
+    for layer in lay_out(picture, view, Medium::Vectors) {
         for item in &layer.items {
             draw_item(&mut surface, item, &fonts);
         }

@@ -12,7 +12,7 @@ use resvg::tiny_skia::{IntSize, Pixmap};
 use resvg::usvg::roxmltree;
 use thiserror::Error;
 
-use crate::exchange::page::{PIXELS_PER_POINT, PageItem, lay_out};
+use crate::exchange::page::{Medium, PageItem, lay_out};
 use crate::figure::font_metrics::{FontFace, runs, text_width};
 use crate::figure::formula::FormulaLayout;
 use crate::figure::mesh::Image;
@@ -96,15 +96,15 @@ pub enum SvgReadError {
 /// The text of the document comes back from [`read_embedded_document`] as it was, except that characters which XML forbids
 /// come back as JSON escapes (`\u0000`), and a carriage return, white space to JSON, as a line feed.
 pub fn write_svg(picture: &Picture, view: &Viewport, embedded_document: Option<&str>) -> String {
-    write_svg_with(picture, view, embedded_document, PIXELS_PER_POINT)
+    write_svg_with(picture, view, embedded_document, Medium::Vectors)
 }
 
-/// As [`write_svg`]; meshes with too many colours for polygons become images with `pixels_per_point`.
+/// As [`write_svg`], for a medium.
 pub(super) fn write_svg_with(
     picture: &Picture,
     view: &Viewport,
     embedded_document: Option<&str>,
-    pixels_per_point: f64,
+    medium: Medium,
 ) -> String {
     let (width, height) = (Number(view.size.x), Number(view.size.y));
     let mut svg = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
@@ -128,7 +128,7 @@ pub(super) fn write_svg_with(
             format_args!("<rect id=\"background\" width=\"{width}\" height=\"{height}\"{fill}/>\n"),
         );
     }
-    for (index, layer) in lay_out(picture, view, pixels_per_point).iter().enumerate() {
+    for (index, layer) in lay_out(picture, view, medium).iter().enumerate() {
         let (number, name) = (index + 1, Escaped(layer.name));
         put(
             &mut svg,
