@@ -6,7 +6,7 @@
 //! |---|---|
 //! | [`core`] | the mathematics, one folder per chapter of the course |
 //! | [`document`] | what is saved and undone: objects, edits with names, history, files, recovery |
-//! | [`figure`] | what is drawn, not by whom: pictures, charts, formulas, looks |
+//! | [`figure`] | what is drawn, not by whom: pictures, charts, scenes, formulas, looks |
 //! | [`course`] | lessons, the stepper's frames, questions checked by mathematics |
 //! | [`exchange`] | SVG, PDF and PNG |
 //! | `app` | the window (feature `app`, on by default) |

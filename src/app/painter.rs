@@ -1,13 +1,14 @@
 //! Paints a [`Picture`] with egui: cubics are flattened and clipped in f64 before anything becomes f32.
 
 use eframe::egui::{
-    Align2, Color32, FontFamily, FontId, Painter, Pos2, Rect, Shape, Stroke as PenStroke, Vec2, epaint, pos2,
-    vec2,
+    Align2, Color32, ColorImage, FontFamily, FontId, Painter, Pos2, Rect, Shape, Stroke as PenStroke,
+    TextureOptions, Vec2, epaint, pos2, vec2,
 };
 use glam::DVec2;
 
 use crate::app::formula_view::paint_formula;
 use crate::figure::formula;
+use crate::figure::mesh::{Mesh, PlacedImage};
 use crate::figure::picture::{
     Anchor, Color, Item, Label, Marker, MarkerShape, Path, Picture, Segment, Viewport,
 };
@@ -51,6 +52,8 @@ pub(crate) fn paint_picture(picture: &Picture, viewport: &Viewport, rect: Rect, 
             Item::Path(path) => paint_path(path, viewport, rect, &painter),
             Item::Marker(marker) => paint_marker(marker, viewport, rect, &painter),
             Item::Label(label) => paint_label(label, viewport, rect, &painter),
+            Item::Mesh(mesh) => paint_mesh(mesh, viewport, rect, &painter),
+            Item::Image(placed) => paint_image(placed, viewport, rect, &painter),
         }
     }
 }
@@ -204,6 +207,25 @@ fn paint_marker(marker: &Marker, viewport: &Viewport, rect: Rect, painter: &Pain
             painter.line_segment([center + vec2(-half, half), center + vec2(half, -half)], pen);
         }
     }
+}
+
+fn paint_mesh(mesh: &Mesh, viewport: &Viewport, rect: Rect, painter: &Painter) {
+    let mut shape = epaint::Mesh::default();
+    for (&point, &color) in mesh.points().iter().zip(mesh.colors()) {
+        shape.colored_vertex(screen_from_world(viewport, rect, point), color32(color));
+    }
+    shape.indices = mesh.triangles().as_flattened().to_vec();
+    painter.add(shape);
+}
+
+/// The texture lives as long as the frame.
+fn paint_image(placed: &PlacedImage, viewport: &Viewport, rect: Rect, painter: &Painter) {
+    let size = [placed.image.width() as usize, placed.image.height() as usize];
+    let pixels = ColorImage::from_rgba_unmultiplied(size, placed.image.pixels());
+    let texture = painter.ctx().load_texture("image", pixels, TextureOptions::LINEAR);
+    let corners = [placed.low, placed.high].map(|corner| screen_from_world(viewport, rect, corner));
+    let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+    painter.image(texture.id(), Rect::from_two_pos(corners[0], corners[1]), whole, Color32::WHITE);
 }
 
 fn paint_label(label: &Label, viewport: &Viewport, rect: Rect, painter: &Painter) {

@@ -6,6 +6,7 @@ use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
 use crate::document::contents::Document;
+use crate::document::eye::EyeState;
 use crate::document::object::ObjectId;
 
 /// Camera, parameters, panels and selection. Unknown entries of a file are ignored, missing ones take defaults.
@@ -14,6 +15,8 @@ use crate::document::object::ObjectId;
 pub struct View {
     /// Where the canvas looks.
     pub camera: Camera,
+    /// Where space is looked at from.
+    pub eye: EyeState,
     /// The parameter t of each curve.
     pub parameters: BTreeMap<ObjectId, f64>,
     /// Name of the open workspace; empty for the first.

@@ -2,6 +2,7 @@
 
 pub mod by_ending;
 pub mod obj;
+mod mesh;
 mod page;
 pub mod pdf;
 pub mod png;

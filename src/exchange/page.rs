@@ -2,19 +2,44 @@
 //!
 //! Things with a coordinate that is not a finite number, which no page can show, are left out.
 
+use std::sync::Arc;
+
 use glam::DVec2;
 
+use crate::exchange::mesh::{image_on_page, mesh_on_page};
 use crate::figure::clip::path_near_box;
 use crate::figure::formula::{self, FormulaLayout};
+use crate::figure::mesh::Image;
 use crate::figure::picture::{
     Anchor, Color, Item, Label, Marker, MarkerShape, Path, Picture, Segment, Stroke, Viewport,
 };
 
+/// Pixels per pt of images in files that can be enlarged.
+const PIXELS_PER_POINT: f64 = 3.0;
 /// Lines that leave the page by more than this multiple of its size are cut near the page: the programs that draw them count in
 /// single precision.
 const HUGE: f64 = 30.0;
 /// Width in pt of the strokes of a cross that has no outline of its own.
 const CROSS_WIDTH: f64 = 1.0;
+
+/// What the page is made for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Medium {
+    /// A file that can be enlarged.
+    Vectors,
+    /// So many pixels per pt.
+    Pixels(f64),
+}
+
+impl Medium {
+    /// Pixels per pt of images on the page.
+    pub(super) const fn pixels_per_point(self) -> f64 {
+        match self {
+            Self::Vectors => PIXELS_PER_POINT,
+            Self::Pixels(pixels_per_point) => pixels_per_point,
+        }
+    }
+}
 
 /// A layer on the page.
 pub(super) struct PageLayer<'a> {
@@ -32,18 +57,23 @@ pub(super) enum PageItem<'a> {
     Text { at: DVec2, text: &'a str, size: f64, color: Color, anchor: Anchor },
     /// A formula; `at` is the left end of its base line.
     Formula { at: DVec2, layout: FormulaLayout, color: Color },
+    /// An image; `corner` is its upper left one.
+    Image { corner: DVec2, size: DVec2, image: Arc<Image> },
 }
 
-pub(super) fn lay_out<'a>(picture: &'a Picture, view: &Viewport) -> Vec<PageLayer<'a>> {
+/// The layers of `picture`; meshes become images where there are only pixels, or too many colours for polygons.
+pub(super) fn lay_out<'a>(picture: &'a Picture, view: &Viewport, medium: Medium) -> Vec<PageLayer<'a>> {
     let on_page = |item: &'a Item| match item {
-        Item::Path(path) => path_on_page(path, view),
-        Item::Marker(marker) => marker_on_page(marker, view),
-        Item::Label(label) => label_on_page(label, view),
+        Item::Path(path) => Vec::from_iter(path_on_page(path, view)),
+        Item::Marker(marker) => Vec::from_iter(marker_on_page(marker, view)),
+        Item::Label(label) => Vec::from_iter(label_on_page(label, view)),
+        Item::Mesh(mesh) => mesh_on_page(mesh, view, medium),
+        Item::Image(placed) => Vec::from_iter(image_on_page(placed, view)),
     };
     picture
         .layers
         .iter()
-        .map(|layer| PageLayer { name: &layer.name, items: layer.items.iter().filter_map(on_page).collect() })
+        .map(|layer| PageLayer { name: &layer.name, items: layer.items.iter().flat_map(on_page).collect() })
         .collect()
 }
 

@@ -5,7 +5,7 @@
 use glam::DVec2;
 use krilla::Document;
 use krilla::color::rgb;
-use krilla::geom::{PathBuilder, Point};
+use krilla::geom::{PathBuilder, Point, Size, Transform};
 use krilla::num::NormalizedF32;
 use krilla::page::PageSettings;
 use krilla::paint::{Fill, LineCap, LineJoin, StrokeDash};
@@ -13,9 +13,10 @@ use krilla::surface::Surface;
 use krilla::text::{Font, GlyphId, KrillaGlyph};
 use thiserror::Error;
 
-use crate::exchange::page::{PageItem, lay_out};
+use crate::exchange::page::{Medium, PageItem, lay_out};
 use crate::figure::font_metrics::{FontFace, letter_metrics, runs, text_width};
 use crate::figure::formula::{FormulaLayout, Rule};
+use crate::figure::mesh::Image;
 use crate::figure::picture::{Anchor, Color, Path, Picture, Segment, Stroke, Viewport};
 
 /// Longest side of a page in pt: the 200 inches that PDF viewers agree on.
@@ -65,7 +66,7 @@ pub fn write_pdf(picture: &Picture, view: &Viewport) -> Result<Vec<u8>, PdfError
         let corners = [DVec2::ZERO, DVec2::new(view.size.x, 0.0), view.size, DVec2::new(0.0, view.size.y)];
         draw_path(&mut surface, &Path::polygon(&corners, None, Some(color)));
     }
-    for layer in lay_out(picture, view) {
+    for layer in lay_out(picture, view, Medium::Vectors) {
         for item in &layer.items {
             draw_item(&mut surface, item, &fonts);
         }
@@ -100,7 +101,16 @@ fn draw_item(surface: &mut Surface<'_>, item: &PageItem<'_>, fonts: &Fonts) {
             draw_line(surface, fonts, *at, text, *size, *color, *anchor);
         }
         PageItem::Formula { at, layout, color } => draw_formula(surface, fonts, *at, layout, *color),
+        PageItem::Image { corner, size, image } => draw_image(surface, *corner, *size, image),
     }
+}
+
+fn draw_image(surface: &mut Surface<'_>, corner: DVec2, size: DVec2, image: &Image) {
+    let Some(extent) = Size::from_wh(size.x as f32, size.y as f32) else { return };
+    let pixels = krilla::image::Image::from_rgba8(image.pixels().to_vec(), image.width(), image.height());
+    surface.push_transform(&Transform::from_translate(corner.x as f32, corner.y as f32));
+    surface.draw_image(pixels, extent);
+    surface.pop();
 }
 
 fn circle(center: DVec2, radius: f64) -> Vec<Segment> {

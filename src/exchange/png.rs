@@ -6,7 +6,8 @@ use resvg::tiny_skia;
 use resvg::usvg;
 use thiserror::Error;
 
-use crate::exchange::svg::write_svg;
+use crate::exchange::page::Medium;
+use crate::exchange::svg::write_svg_with;
 use crate::figure::font_metrics::FontFace;
 use crate::figure::picture::{Picture, Viewport};
 
@@ -60,7 +61,7 @@ pub fn write_png(picture: &Picture, view: &Viewport, pixels_per_point: f64) -> R
         return Err(PngError::TooLarge { width, height });
     }
     let failed = |reason: String| PngError::Failed { reason };
-    let svg = write_svg(picture, view, None);
+    let svg = write_svg_with(picture, view, None, Medium::Pixels(pixels_per_point));
     let tree = usvg::Tree::from_str(&svg, &options()).map_err(|error| failed(error.to_string()))?;
     let mut image = tiny_skia::Pixmap::new(width as u32, height as u32)
         .ok_or_else(|| failed("not enough memory".to_owned()))?;

@@ -5,13 +5,17 @@
 
 use std::fmt::Write as _;
 
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD as BASE64;
 use glam::DVec2;
+use resvg::tiny_skia::{IntSize, Pixmap};
 use resvg::usvg::roxmltree;
 use thiserror::Error;
 
-use crate::exchange::page::{PageItem, lay_out};
+use crate::exchange::page::{Medium, PageItem, lay_out};
 use crate::figure::font_metrics::{FontFace, runs, text_width};
 use crate::figure::formula::FormulaLayout;
+use crate::figure::mesh::Image;
 use crate::figure::picture::{Anchor, Color, Path, Picture, Segment, Stroke, Viewport};
 
 /// Namespace of the embedded document.
@@ -92,13 +96,23 @@ pub enum SvgReadError {
 /// The text of the document comes back from [`read_embedded_document`] as it was, except that characters which XML forbids
 /// come back as JSON escapes (`\u0000`), and a carriage return, white space to JSON, as a line feed.
 pub fn write_svg(picture: &Picture, view: &Viewport, embedded_document: Option<&str>) -> String {
+    write_svg_with(picture, view, embedded_document, Medium::Vectors)
+}
+
+/// As [`write_svg`], for a medium.
+pub(super) fn write_svg_with(
+    picture: &Picture,
+    view: &Viewport,
+    embedded_document: Option<&str>,
+    medium: Medium,
+) -> String {
     let (width, height) = (Number(view.size.x), Number(view.size.y));
     let mut svg = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
     put(
         &mut svg,
         format_args!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" \
-             xmlns:lab=\"{NAMESPACE}\" version=\"1.1\" width=\"{width}pt\" height=\"{height}pt\" \
+             xmlns:xlink=\"http://www.w3.org/1999/xlink\" xmlns:lab=\"{NAMESPACE}\" version=\"1.1\" width=\"{width}pt\" height=\"{height}pt\" \
              viewBox=\"0 0 {width} {height}\" fill=\"none\" stroke-linejoin=\"round\">\n"
         ),
     );
@@ -114,7 +128,7 @@ pub fn write_svg(picture: &Picture, view: &Viewport, embedded_document: Option<&
             format_args!("<rect id=\"background\" width=\"{width}\" height=\"{height}\"{fill}/>\n"),
         );
     }
-    for (index, layer) in lay_out(picture, view).iter().enumerate() {
+    for (index, layer) in lay_out(picture, view, medium).iter().enumerate() {
         let (number, name) = (index + 1, Escaped(layer.name));
         put(
             &mut svg,
@@ -262,7 +276,31 @@ fn write_item(svg: &mut String, item: &PageItem<'_>) {
             write_text(svg, *at, text, *size, *color, *anchor);
         }
         PageItem::Formula { at, layout, color } => write_formula(svg, *at, layout, *color),
+        PageItem::Image { corner, size, image } => write_image(svg, *corner, *size, image),
     }
+}
+
+fn write_image(svg: &mut String, corner: DVec2, size: DVec2, image: &Image) {
+    // Nothing is written of an image for whose file there is no memory.
+    let Some(png) = png_of(image) else { return };
+    let (x, y, width, height) = (Number(corner.x), Number(corner.y), Number(size.x), Number(size.y));
+    put(
+        svg,
+        format_args!(
+            "<image x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" preserveAspectRatio=\"none\" \
+             xlink:href=\"data:image/png;base64,{}\"/>\n",
+            BASE64.encode(png)
+        ),
+    );
+}
+
+fn png_of(image: &Image) -> Option<Vec<u8>> {
+    let premultiplied = image.pixels().chunks_exact(4).flat_map(|pixel| {
+        let part = |k: usize| ((u32::from(pixel[k]) * u32::from(pixel[3]) + 127) / 255) as u8;
+        [part(0), part(1), part(2), pixel[3]]
+    });
+    let size = IntSize::from_wh(image.width(), image.height())?;
+    Pixmap::from_vec(premultiplied.collect(), size)?.encode_png().ok()
 }
 
 fn write_text(svg: &mut String, at: DVec2, text: &str, size: f64, color: Color, anchor: Anchor) {

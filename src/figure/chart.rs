@@ -345,13 +345,15 @@ fn formula_in(text: &str) -> Option<&str> {
     text.strip_prefix('$').and_then(|rest| rest.strip_suffix('$'))
 }
 
-fn text(at: DVec2, text: &str, size: f64, color: Color, anchor: Anchor) -> Item {
+/// A text; typeset as a formula if it is between two `$`.
+pub(crate) fn text(at: DVec2, text: &str, size: f64, color: Color, anchor: Anchor) -> Item {
     let formula = formula_in(text);
     let (text, math) = (formula.unwrap_or(text).to_owned(), formula.is_some());
     Item::Label(Label { at, offset: DVec2::ZERO, text, size, color, anchor, math })
 }
 
-fn label_width(text: &str, size: f64) -> f64 {
+/// Width in pt of such a text.
+pub(crate) fn label_width(text: &str, size: f64) -> f64 {
     let formula = formula_in(text).and_then(|source| formula::layout(source, size).ok());
     formula.map_or_else(|| text_width(FontFace::Regular, text, size), |layout| layout.width)
 }

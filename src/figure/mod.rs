@@ -2,11 +2,19 @@
 
 pub mod chart;
 pub mod clip;
+pub mod color_bar;
+pub mod color_map;
 pub mod comb;
 pub mod composition;
 pub mod curve;
+pub mod error;
+pub mod field;
 pub mod font_metrics;
 pub mod formula;
+pub mod isoline;
+pub mod mesh;
 pub mod picture;
+pub mod raster;
+pub mod scene;
 pub mod theme;
 pub mod ticks;

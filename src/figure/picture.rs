@@ -5,6 +5,8 @@
 
 use glam::DVec2;
 
+use crate::figure::mesh::{Mesh, PlacedImage};
+
 /// A colour with 8 bits each of red, green, blue (sRGB) and opacity (not premultiplied).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Color {
@@ -176,6 +178,10 @@ pub enum Item {
     Marker(Marker),
     /// A text.
     Label(Label),
+    /// Coloured triangles.
+    Mesh(Mesh),
+    /// An image.
+    Image(PlacedImage),
 }
 
 /// Things that belong together, under a name that exporters keep.

@@ -4,6 +4,7 @@
 //! until each stands out from its ground with a contrast of at least 3 : 1 ([`contrast`]).
 
 use crate::figure::picture::{Color, Stroke};
+use crate::figure::scene::Light;
 
 /// One look of every figure.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,6 +39,14 @@ pub struct Theme {
     pub warning: Color,
     /// Something wrong.
     pub error: Color,
+    /// Front of surfaces that have no colour of their own.
+    pub surface: Color,
+    /// Back of such surfaces.
+    pub surface_back: Color,
+    /// Lines that run within surfaces: parameter lines, edges of facets.
+    pub surface_line: Color,
+    /// Light of scenes.
+    pub light: Light,
     /// Colours of curves and B-splines, each with a contrast of at least 3 : 1 against `background`.
     pub palette: [Color; 8],
     /// Factor for all line widths and markers.
@@ -65,6 +74,10 @@ impl Theme {
             accent: Color::hex(0xB0_1E_5B),
             warning: Color::hex(0x8F_5F_00),
             error: Color::hex(0xB4_23_18),
+            surface: Color::hex(0x8F_B8_DE),
+            surface_back: Color::hex(0xE0_BC_8A),
+            surface_line: Color::hex(0x24_3B_53),
+            light: Light { ambient: 0.42, head: 0.46, fill: 0.22, shine: 0.12 },
             palette: [
                 Color::hex(0x00_6B_AE),
                 Color::hex(0xCB_57_00),
@@ -98,6 +111,10 @@ impl Theme {
             accent: Color::hex(0xFF_7F_B0),
             warning: Color::hex(0xE3_B3_41),
             error: Color::hex(0xFF_7B_6E),
+            surface: Color::hex(0x3F_74_A6),
+            surface_back: Color::hex(0xA0_73_38),
+            surface_line: Color::hex(0xDC_E9_F5),
+            light: Light { ambient: 0.35, head: 0.45, fill: 0.25, shine: 0.18 },
             palette: [
                 Color::hex(0x56_B4_E9),
                 Color::hex(0xF0_7F_2E),

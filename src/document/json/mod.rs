@@ -22,6 +22,7 @@ use serde_json::{Value, json};
 
 use crate::document::apply::{MAX_ID, MAX_OBJECTS, check_name};
 use crate::document::contents::Document;
+use crate::document::eye::EyeError;
 use crate::document::file_error::FileError;
 use crate::document::json::curve::CurveRecord;
 use crate::document::json::writer::Node;
@@ -204,5 +205,6 @@ fn check_view(view: &View) -> Result<(), FileError> {
     if scale <= 0.0 {
         return Err(FileError::value("view.camera.scale", format!("{scale} is not positive")));
     }
-    Ok(())
+    let eye_error = |error: EyeError| FileError::value(format!("view.eye.{}", error.field), error);
+    view.eye.check().map_err(eye_error)
 }
