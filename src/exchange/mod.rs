@@ -1,8 +1,8 @@
 //! Figures for paper, and meshes of other programs.
 
 pub mod by_ending;
-pub mod obj;
 mod mesh;
+pub mod obj;
 mod page;
 pub mod pdf;
 pub mod png;

@@ -19,7 +19,10 @@ use example::Example;
 
 /// The sections built so far. An example of one of them without a test is a failure; of sections built in part, such as 9.5,
 /// only the examples with a test are asserted.
-const SECTIONS: [&str; 21] = ["2.1", "2.3", "4.1", "4.4", "4.5", "5.1", "5.5", "5.6", "6.1", "7.3", "7.4", "8.2", "8.3", "9.1", "9.2", "9.3", "9.4", "B.9", "B.11", "B.14", "B.15"];
+const SECTIONS: [&str; 21] = [
+    "2.1", "2.3", "4.1", "4.4", "4.5", "5.1", "5.5", "5.6", "6.1", "7.3", "7.4", "8.2", "8.3", "9.1", "9.2",
+    "9.3", "9.4", "B.9", "B.11", "B.14", "B.15",
+];
 
 /// What computes an example and compares.
 type Check = fn(&Example);
@@ -32,9 +35,19 @@ fn every_example_of_the_sections_built_is_asserted() {
         .flat_map(|text| serde_json::from_str::<Vec<serde_json::Value>>(text).expect("the file is a list"))
         .map(|entry| Example::new(&entry))
         .collect();
-<<<<<<< HEAD
-<<<<<<< HEAD
-    let checks: BTreeMap<&str, Check> = [chapter2::CHECKS, chapter4::CHECKS, chapter5::CHECKS, chapter6::CHECKS, chapter7::CHECKS, chapter8::CHECKS, chapter9::CHECKS, chapter9_isogeometric::CHECKS].concat().into_iter().collect();
+    let checks: BTreeMap<&str, Check> = [
+        chapter2::CHECKS,
+        chapter4::CHECKS,
+        chapter5::CHECKS,
+        chapter6::CHECKS,
+        chapter7::CHECKS,
+        chapter8::CHECKS,
+        chapter9::CHECKS,
+        chapter9_isogeometric::CHECKS,
+    ]
+    .concat()
+    .into_iter()
+    .collect();
     let mut wrong = Vec::new();
     for id in checks.keys() {
         if !examples.iter().any(|example| example.id == *id) {

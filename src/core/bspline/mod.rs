@@ -3,7 +3,6 @@
 //! | file | what |
 //! |---|---|
 //! | `basis` | 4.1 the recurrence, single B-splines and the active ones of a space |
-//! | `active_derivatives` | 4.2 derivatives of the active B-splines at one parameter, without allocation |
 //! | `basis_derivative` | 4.2 derivatives of the active B-splines
 //! | `derivative` | 4.2, 4.5 derivatives as splines and as sums that may jump |
 //! | `space` | 4.4, 4.6 degree and knots that fit each other |
@@ -14,7 +13,6 @@
 //! | `integral` | 4.5 antiderivative, integral, mean |
 //! | `unroll` | 4.6 a period as an open spline |
 
-mod active_derivatives;
 mod basis;
 mod basis_derivative;
 mod builders;

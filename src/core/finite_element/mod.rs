@@ -25,14 +25,14 @@ mod error_norm;
 mod fast_diagonalisation;
 mod flow;
 mod form;
+mod geometry;
 mod grid;
+mod isogeometric;
+mod multipatch;
 mod offset_matrix;
 mod poisson;
 mod r_function;
 mod ritz_galerkin;
-mod geometry;
-mod isogeometric;
-mod multipatch;
 pub mod sample_geometries;
 mod solver;
 mod web_spline;
@@ -46,20 +46,20 @@ pub use error_norm::{ErrorNorms, ErrorSums, convergence_rates};
 pub use fast_diagonalisation::{DirectionMatrices, FastDiagonalisation};
 pub use flow::{PotentialFlow, StreamEnd, StreamLine, StreamPoint};
 pub use form::{Coefficient, EllipticForm, FormAtPoint, Jet};
+pub use geometry::{DeterminantRange, Orientation, PatchJet, PatchSide, PlanePatch};
 pub use grid::{CellBasis, Grid, MAX_CELLS, MAX_ELEMENT_DEGREE};
+pub use isogeometric::{
+    IsogeometricSolution, IsogeometricSpace, IsogeometricSystem, SideFlux, SolutionJet, StudyRow,
+    TensorBandMatrix, isogeometric_convergence_study, solve_patch,
+};
+pub use multipatch::{FixedSides, Interface, MultiPatch, MultiPatchSolution};
 pub use offset_matrix::OffsetMatrix;
 pub use poisson::{
     Basis, ConvergenceStudy, Discretisation, Problem, WeightedSolution, WeightedSystem, condition_number,
-    weighted_convergence_study, solve_problem,
+    solve_problem, weighted_convergence_study,
 };
 pub use r_function::{r_complement, r_difference, r_intersection, r_union};
 pub use ritz_galerkin::{GalerkinSystem, LineForm, line_system, rectangle_system};
-pub use geometry::{DeterminantRange, Orientation, PatchJet, PatchSide, PlanePatch};
-pub use isogeometric::{
-    IsogeometricSolution, IsogeometricSpace, IsogeometricSystem, SideFlux, SolutionJet, StudyRow, TensorBandMatrix,
-    isogeometric_convergence_study, solve_patch,
-};
-pub use multipatch::{FixedSides, Interface, MultiPatch, MultiPatchSolution};
 pub use solver::{Method, SystemMatrix, SystemSolution, solve_system, solve_up_to_a_constant};
 pub use web_spline::{Joined, NodeArray, NodeClass, extension_coefficients};
 pub use weight_function::{Weight, domain_weight};

@@ -451,7 +451,8 @@ mod tests {
         for degree in 1..=3 {
             let settings = Discretisation { method: Method::Direct, ..Discretisation::new(degree, 0.25) };
             let study =
-                weighted_convergence_study(&problem, &exact, &settings, &[0.2, 0.1, 0.05], &Unwatched).unwrap();
+                weighted_convergence_study(&problem, &exact, &settings, &[0.2, 0.1, 0.05], &Unwatched)
+                    .unwrap();
             let (n, last) = (degree as f64, study.l2_rates.len() - 1);
             assert!(
                 (study.l2_rates[last] - n - 1.0).abs() < 0.2,

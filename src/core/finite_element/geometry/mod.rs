@@ -12,7 +12,7 @@ use std::fmt;
 
 use glam::{DVec2, DVec3};
 
-use crate::core::bspline::{EndKnots, MAX_DEGREE, SplineError, SplineSpace};
+use crate::core::bspline::{EndKnots, MAX_DEGREE, Side, SplineError, SplineSpace};
 use crate::core::finite_element::error::FiniteElementError;
 pub use determinant::{DeterminantRange, Orientation};
 
@@ -105,7 +105,9 @@ impl PlanePatch {
     /// `KnotsNotRegular` for a periodic space, `SizeMismatch`, `NonFinite` (also if weight times point overflows),
     /// `WeightNotPositive`.
     pub fn new(
-        spaces: [SplineSpace; 2], points: Vec<DVec2>, weights: Vec<f64>,
+        spaces: [SplineSpace; 2],
+        points: Vec<DVec2>,
+        weights: Vec<f64>,
     ) -> Result<Self, FiniteElementError> {
         check_open(&spaces)?;
         let expected = spaces[0].dimension() * spaces[1].dimension();
@@ -145,7 +147,10 @@ impl PlanePatch {
     ///
     /// `Direction` for a degree of 0 or a size that is not positive; those of [`Self::new`].
     pub fn bezier(
-        degrees: [usize; 2], size: DVec2, points: Vec<DVec2>, weights: Vec<f64>,
+        degrees: [usize; 2],
+        size: DVec2,
+        points: Vec<DVec2>,
+        weights: Vec<f64>,
     ) -> Result<Self, FiniteElementError> {
         let space = |axis: usize| {
             SplineSpace::from_breaks(degrees[axis], &[0.0, size[axis]], EndKnots::Interpolating)
@@ -259,7 +264,7 @@ pub(super) fn active(space: &SplineSpace, axis: usize, t: f64) -> Result<Active,
     let degree = space.degree();
     let mut numbers = [0.0; 2 * (MAX_DEGREE + 1)];
     let first = space
-        .write_active_derivatives(t, &mut numbers[..2 * (degree + 1)])
+        .write_basis_derivatives(t, 1, Side::Right, &mut numbers[..2 * (degree + 1)])
         .map_err(|source| FiniteElementError::Direction { axis, source })?;
     Ok(Active { first, degree, numbers })
 }

@@ -105,7 +105,10 @@ impl MultiPatch {
     ///
     /// Those of [`IsogeometricSpace::refined`], which name the patch, and of [`Self::new`].
     pub fn refined(
-        patches: &[PlanePatch], degree: usize, divisions: usize, fixed: FixedSides<'_>,
+        patches: &[PlanePatch],
+        degree: usize,
+        divisions: usize,
+        fixed: FixedSides<'_>,
     ) -> Result<Self, FiniteElementError> {
         let space = |(number, patch): (usize, &PlanePatch)| {
             IsogeometricSpace::refined(patch, degree, [divisions; 2], &[])
@@ -145,7 +148,9 @@ impl MultiPatch {
     ///
     /// `SingularSystem` if no side is fixed and `c = 0`; errors of the assembly, which name the patch; `NotConverged`.
     pub fn solve(
-        &self, form: &EllipticForm<'_>, watcher: &dyn Watcher,
+        &self,
+        form: &EllipticForm<'_>,
+        watcher: &dyn Watcher,
     ) -> Result<MultiPatchSolution, FiniteElementError> {
         if self.unknowns == self.coefficients && form.kills_constants() {
             return Err(FiniteElementError::SingularSystem);
@@ -306,9 +311,7 @@ impl Classes {
     }
 
     /// Numbers in the order of the patches, the classes that are fixed last; numbers of unknowns and of classes.
-    fn number(
-        mut self, spaces: &[IsogeometricSpace], is_fixed: &[bool],
-    ) -> (Vec<Vec<usize>>, usize, usize) {
+    fn number(mut self, spaces: &[IsogeometricSpace], is_fixed: &[bool]) -> (Vec<Vec<usize>>, usize, usize) {
         let mut of_class = vec![usize::MAX; self.parents.len()];
         let mut next = 0;
         let mut unknowns = 0;
