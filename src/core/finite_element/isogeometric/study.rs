@@ -108,3 +108,52 @@ pub fn convergence_study(
     };
     divisions.iter().enumerate().map(row).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
+    use super::*;
+    use crate::core::finite_element::error_norm::convergence_rates;
+    use crate::core::finite_element::form::Coefficient;
+    use crate::core::finite_element::sample_geometries as sample;
+    use crate::core::progress::Unwatched;
+
+    #[test]
+    fn on_the_annulus_errors_fall_with_the_expected_rates() {
+        // u = x y (r² − 1)(r² − 4) vanishes on all sides; −Δu = −x y (32 r² − 60).
+        let load = |x: DVec2| -x.x * x.y * (32.0 * x.length_squared() - 60.0);
+        let exact = |x: DVec2| {
+            let (product, r) = (x.x * x.y, x.length_squared());
+            let (factor, slope) = ((r - 1.0) * (r - 4.0), 2.0 * r - 5.0);
+            let gradient = DVec2::new(x.y, x.x) * factor + x * (2.0 * product * slope);
+            Jet { value: product * factor, gradient }
+        };
+        let patch = sample::quarter_annulus(1.0, 2.0).unwrap();
+        let form = EllipticForm::poisson(Coefficient::Function(&load));
+        for degree in 1..=5 {
+            let divisions = [8, 16];
+            let rows = convergence_study(&patch, degree, &divisions, &PatchSide::ALL, &form, exact, &Unwatched);
+            let rows = rows.unwrap();
+            let widths: Vec<f64> = rows.iter().map(|row| row.width).collect();
+            let l2: Vec<f64> = rows.iter().map(|row| row.norms.l2).collect();
+            let h1: Vec<f64> = rows.iter().map(|row| row.norms.h1_seminorm).collect();
+            let rates = (convergence_rates(&widths, &l2)[0], convergence_rates(&widths, &h1)[0]);
+            let n = degree as f64;
+            assert!((0.65..1.7).contains(&(rates.0 - n)), "degree {degree}: L2 {l2:?}, rate {}", rates.0);
+            assert!((-0.35..0.7).contains(&(rates.1 - n)), "degree {degree}: H1 {h1:?}, rate {}", rates.1);
+            assert_eq!(rows[0].unknowns, (8 + degree - 2).pow(2), "degree {degree}: unknowns");
+        }
+    }
+
+    #[test]
+    fn an_exact_solution_that_is_no_number_is_refused() {
+        let space = IsogeometricSpace::refined(&sample::unit_square(), 1, [2, 2], &PatchSide::ALL).unwrap();
+        let form = EllipticForm::poisson(Coefficient::Constant(1.0));
+        let solution = solve_patch(space, &form, &[], &Unwatched).unwrap();
+        let error = solution.error_norms(|_| Jet { value: f64::NAN, gradient: DVec2::ZERO }).unwrap_err();
+        assert_eq!(error.name(), "NonFinite", "no number");
+        let difference = solution.difference_norms(&solution).unwrap();
+        assert!(difference.l2 < 1e-16, "a solution agrees with itself: {difference:?}");
+    }
+}
