@@ -4,7 +4,11 @@
 //! conjugate gradients), are timed apart. One JSON line for each measurement; `cpu_…` is the processor time of the
 //! process (0 where the system does not tell).
 
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a measurement prints, and stops at the first surprise")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a measurement prints, and stops at the first surprise"
+)]
 
 use std::f64::consts::PI;
 use std::time::Instant;
@@ -30,11 +34,8 @@ fn main() {
         };
         let exact = move |x: DVec2| {
             let r = x.length_squared();
-            let value = if round {
-                x.x * x.y * (r - 1.0) * (r - 4.0)
-            } else {
-                (PI * x.x).sin() * (PI * x.y).sin()
-            };
+            let value =
+                if round { x.x * x.y * (r - 1.0) * (r - 4.0) } else { (PI * x.x).sin() * (PI * x.y).sin() };
             Jet { value, gradient: DVec2::ZERO }
         };
         let form = EllipticForm::poisson(Coefficient::Function(&load));
@@ -57,9 +58,14 @@ fn main() {
                 let info = format!("{info}, \"L2err\": {error:e}, \"steps\": {steps}");
                 let how = "fast diagonalisation, then conjugate gradients to 1e-12";
                 let workload = format!("W10-{domain}-solve");
-                measure(&workload, unknowns, how, &info, || system.clone(), |system| {
-                    system.solve(&Unwatched).unwrap()
-                })
+                measure(
+                    &workload,
+                    unknowns,
+                    how,
+                    &info,
+                    || system.clone(),
+                    |system| system.solve(&Unwatched).unwrap(),
+                )
             };
             assert_eq!(solution.space().dimension(), unknowns, "nothing was optimised away");
         }
@@ -68,7 +74,12 @@ fn main() {
 
 /// Times `run` on what `set_up` gives, after one warm-up; prints the line and returns the last result.
 fn measure<S, R>(
-    workload: &str, n: usize, how: &str, info: &str, set_up: impl Fn() -> S, run: impl Fn(S) -> R,
+    workload: &str,
+    n: usize,
+    how: &str,
+    info: &str,
+    set_up: impl Fn() -> S,
+    run: impl Fn(S) -> R,
 ) -> R {
     let mut result = run(set_up());
     let (mut wall, mut processor) = (Vec::new(), Vec::new());

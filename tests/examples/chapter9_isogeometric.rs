@@ -2,9 +2,8 @@
 
 use glam::DVec2;
 use spline_lab::core::finite_element::{
-    Coefficient, EllipticForm, FastDiagonalisation, FixedSides, IsogeometricSpace,
-    IsogeometricSystem, MultiPatch, PatchSide, PlanePatch, PotentialFlow, convergence_rates, sample_geometries,
-    solve_patch,
+    Coefficient, EllipticForm, FastDiagonalisation, FixedSides, IsogeometricSpace, IsogeometricSystem,
+    MultiPatch, PatchSide, PlanePatch, PotentialFlow, convergence_rates, sample_geometries, solve_patch,
 };
 use spline_lab::core::linear_system::{DenseMatrix, LinearOperator as _};
 use spline_lab::core::progress::Unwatched;

@@ -29,7 +29,10 @@ fn every_example_of_the_sections_built_is_asserted() {
         .map(|entry| Example::new(&entry))
         .collect();
     let checks: BTreeMap<&str, Check> =
-        [chapter2::CHECKS, chapter4::CHECKS, chapter6::CHECKS, chapter9_isogeometric::CHECKS].concat().into_iter().collect();
+        [chapter2::CHECKS, chapter4::CHECKS, chapter6::CHECKS, chapter9_isogeometric::CHECKS]
+            .concat()
+            .into_iter()
+            .collect();
     let mut wrong = Vec::new();
     for id in checks.keys() {
         if !examples.iter().any(|example| example.id == *id) {

@@ -179,7 +179,9 @@ pub enum FiniteElementError {
         second: (usize, PatchSide),
     },
     /// Essential conditions on a side that does not exist.
-    #[error("the {side} of patch {patch} cannot be fixed: no such patch, an interface, or knots that are not n-fold there")]
+    #[error(
+        "the {side} of patch {patch} cannot be fixed: no such patch, an interface, or knots that are not n-fold there"
+    )]
     DirichletSideUnknown {
         /// The patch.
         patch: usize,

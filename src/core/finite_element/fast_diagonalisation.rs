@@ -48,7 +48,9 @@ impl FastDiagonalisation {
     /// `SizeMismatch` for matrices that are not square or too small for `free`, `NotPositiveDefinite` for `M` or for a
     /// negative denominator, `NotConverged`.
     pub fn new(
-        matrices: [&DirectionMatrices; 2], free: [Range<usize>; 2], shift: f64,
+        matrices: [&DirectionMatrices; 2],
+        free: [Range<usize>; 2],
+        shift: f64,
     ) -> Result<Self, LinearSystemError> {
         let sizes = matrices.map(|matrices| matrices.mass.rows());
         let (first, first_vectors) = eigenvectors(matrices[0], &free[0])?;
@@ -90,7 +92,11 @@ impl FastDiagonalisation {
         let mut solution = vec![0.0; self.sizes[0] * self.sizes[1]];
         if right_side.len() != solution.len() {
             let (expected, found) = (solution.len(), right_side.len());
-            return Err(LinearSystemError::SizeMismatch { what: "entries of the right side", expected, found });
+            return Err(LinearSystemError::SizeMismatch {
+                what: "entries of the right side",
+                expected,
+                found,
+            });
         }
         self.write_solution(right_side, &mut solution)?;
         Ok(solution)
@@ -123,7 +129,9 @@ impl FastDiagonalisation {
 impl Preconditioner for FastDiagonalisation {
     fn precondition(&self, residual: &[f64], corrected: &mut [f64]) {
         // Both slices have the size of the operator; if not, the iteration sees a direction that is not a number.
-        if residual.len() != self.sizes[0] * self.sizes[1] || self.write_solution(residual, corrected).is_err() {
+        if residual.len() != self.sizes[0] * self.sizes[1]
+            || self.write_solution(residual, corrected).is_err()
+        {
             corrected.fill(f64::NAN);
         }
     }
@@ -131,7 +139,8 @@ impl Preconditioner for FastDiagonalisation {
 
 /// Eigenvalues and rows of eigenvectors of `K v = λ M v` in the free coefficients.
 fn eigenvectors(
-    matrices: &DirectionMatrices, free: &Range<usize>,
+    matrices: &DirectionMatrices,
+    free: &Range<usize>,
 ) -> Result<(Vec<f64>, DenseMatrix), LinearSystemError> {
     let DirectionMatrices { stiffness, mass } = matrices;
     for (what, found) in [

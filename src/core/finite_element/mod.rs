@@ -30,8 +30,8 @@ pub use flow::{PotentialFlow, StreamEnd, StreamLine, StreamPoint};
 pub use form::{Coefficient, EllipticForm, FormAtPoint, Jet};
 pub use geometry::{DeterminantRange, Orientation, PatchJet, PatchSide, PlanePatch};
 pub use isogeometric::{
-    IsogeometricSolution, IsogeometricSpace, IsogeometricSystem, SideFlux, SolutionJet, StudyRow, TensorBandMatrix,
-    convergence_study, solve_patch,
+    IsogeometricSolution, IsogeometricSpace, IsogeometricSystem, SideFlux, SolutionJet, StudyRow,
+    TensorBandMatrix, convergence_study, solve_patch,
 };
 pub use multipatch::{FixedSides, Interface, MultiPatch, MultiPatchSolution};
 pub use solver::{Method, SystemMatrix, SystemSolution, solve_system, solve_up_to_a_constant};

@@ -25,7 +25,14 @@ pub fn book_patch() -> PlanePatch {
 /// The course's channel of degree (3, 1) over `[0, 2] × [0, 1]`; it runs from the left, narrows, and ends on the right.
 pub fn channel() -> PlanePatch {
     let points = [
-        [0.0, 10.0], [0.0, 20.0], [21.0, 15.0], [18.0, 12.0], [9.0, 0.0], [9.0, 10.0], [33.0, 0.0], [33.0, 10.0],
+        [0.0, 10.0],
+        [0.0, 20.0],
+        [21.0, 15.0],
+        [18.0, 12.0],
+        [9.0, 0.0],
+        [9.0, 10.0],
+        [33.0, 0.0],
+        [33.0, 10.0],
     ];
     bezier([3, 1], DVec2::new(2.0, 1.0), &points)
 }
@@ -66,9 +73,7 @@ fn bezier(degrees: [usize; 2], size: DVec2, points: &[[f64; 2]]) -> PlanePatch {
     PlanePatch::bezier(degrees, size, points, weights).expect("the numbers written here make a patch")
 }
 
-fn annulus_quarter(
-    inner: f64, outer: f64, from: DVec2, to: DVec2,
-) -> Result<PlanePatch, FiniteElementError> {
+fn annulus_quarter(inner: f64, outer: f64, from: DVec2, to: DVec2) -> Result<PlanePatch, FiniteElementError> {
     if !(inner > 0.0 && inner < outer) {
         return Err(SplineError::OutsideInterval { value: inner, left: 0.0, right: outer }.into());
     }

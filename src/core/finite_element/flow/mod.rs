@@ -46,7 +46,11 @@ impl PotentialFlow {
     /// `NonFinite` for the speeds, `IncompatibleData` if inflow and outflow do not balance; those of
     /// [`IsogeometricSpace::refined`] and [`solve_patch`].
     pub fn solve(
-        patch: &PlanePatch, degree: usize, divisions: [usize; 2], inflow: f64, outflow: Option<f64>,
+        patch: &PlanePatch,
+        degree: usize,
+        divisions: [usize; 2],
+        inflow: f64,
+        outflow: Option<f64>,
         watcher: &dyn Watcher,
     ) -> Result<Self, FiniteElementError> {
         for (index, value) in [inflow, outflow.unwrap_or(0.0)].into_iter().enumerate() {

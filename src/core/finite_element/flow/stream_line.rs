@@ -22,15 +22,8 @@ const STAGES: [&[f64]; 6] = [
 ];
 
 /// Differences of the weights of orders 5 and 4.
-const ERROR: [f64; 7] = [
-    71.0 / 57600.0,
-    0.0,
-    -71.0 / 16695.0,
-    71.0 / 1920.0,
-    -17253.0 / 339200.0,
-    22.0 / 525.0,
-    -1.0 / 40.0,
-];
+const ERROR: [f64; 7] =
+    [71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339200.0, 22.0 / 525.0, -1.0 / 40.0];
 
 /// A point of a stream line.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -134,7 +127,11 @@ impl PotentialFlow {
 
     /// The part of `step` that ends on the right side, by the secant rule.
     fn step_to_end(
-        &self, t: DVec2, step: f64, next: DVec2, right: f64,
+        &self,
+        t: DVec2,
+        step: f64,
+        next: DVec2,
+        right: f64,
     ) -> Result<(DVec2, f64), FiniteElementError> {
         let (mut low, mut high) = ((0.0, t.x), (step, next.x));
         let mut best = (next, step);

@@ -2,9 +2,9 @@
 
 use glam::DVec2;
 
+use crate::core::finite_element::error::FiniteElementError;
 use crate::core::finite_element::geometry::PlanePatch;
 use crate::core::quadrature::gauss_legendre;
-use crate::core::finite_element::error::FiniteElementError;
 
 /// A determinant this much smaller than the largest one, relative to it, is zero.
 const ZERO_DETERMINANT: f64 = 1e-12;
@@ -171,7 +171,9 @@ mod tests {
         // With the corner on the diagonal the determinant vanishes there and nowhere else.
         let singular = square.with_point(3, DVec2::new(0.5, 0.5)).unwrap();
         match singular.check_regular() {
-            Err(FiniteElementError::SingularJacobian { parameter, .. }) => assert_eq!(parameter, DVec2::ONE, "the corner"),
+            Err(FiniteElementError::SingularJacobian { parameter, .. }) => {
+                assert_eq!(parameter, DVec2::ONE, "the corner")
+            }
             other => panic!("{other:?}"),
         }
         let flat = PlanePatch::polynomial(square.spaces().clone(), vec![DVec2::ONE; 4]).unwrap();

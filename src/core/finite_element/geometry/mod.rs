@@ -105,7 +105,9 @@ impl PlanePatch {
     /// `KnotsNotRegular` for a periodic space, `SizeMismatch`, `NonFinite` (also if weight times point overflows),
     /// `WeightNotPositive`.
     pub fn new(
-        spaces: [SplineSpace; 2], points: Vec<DVec2>, weights: Vec<f64>,
+        spaces: [SplineSpace; 2],
+        points: Vec<DVec2>,
+        weights: Vec<f64>,
     ) -> Result<Self, FiniteElementError> {
         check_open(&spaces)?;
         let expected = spaces[0].dimension() * spaces[1].dimension();
@@ -145,7 +147,10 @@ impl PlanePatch {
     ///
     /// `Direction` for a degree of 0 or a size that is not positive; those of [`Self::new`].
     pub fn bezier(
-        degrees: [usize; 2], size: DVec2, points: Vec<DVec2>, weights: Vec<f64>,
+        degrees: [usize; 2],
+        size: DVec2,
+        points: Vec<DVec2>,
+        weights: Vec<f64>,
     ) -> Result<Self, FiniteElementError> {
         let space = |axis: usize| {
             SplineSpace::from_breaks(degrees[axis], &[0.0, size[axis]], EndKnots::Interpolating)

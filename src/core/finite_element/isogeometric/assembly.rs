@@ -61,7 +61,10 @@ struct Chunk<'a> {
 ///
 /// Those of the integrand; `Stopped`.
 pub(super) fn assemble(
-    integrand: Integrand<'_>, sizes: [usize; 2], orientation: f64, watcher: &dyn Watcher,
+    integrand: Integrand<'_>,
+    sizes: [usize; 2],
+    orientation: f64,
+    watcher: &dyn Watcher,
 ) -> Result<Sums, FiniteElementError> {
     let [first, second] = integrand.directions;
     let degrees = [first.solution.degree, second.solution.degree];
@@ -136,7 +139,10 @@ impl Factorisation {
     }
 
     fn run(
-        &mut self, integrand: Integrand<'_>, chunk: &mut Chunk<'_>, orientation: f64,
+        &mut self,
+        integrand: Integrand<'_>,
+        chunk: &mut Chunk<'_>,
+        orientation: f64,
     ) -> Result<(), FiniteElementError> {
         let [first, second] = integrand.directions;
         let arch = pulp::Arch::new();
@@ -184,10 +190,14 @@ impl Factorisation {
                     for j in 0..=n {
                         let (mut t_vv, mut t_dv, mut t_dd) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
                         for q in 0..points {
-                            let (vi, di) =
-                                (lanes(&table.values, table.at(q, i, e)), lanes(&table.slopes, table.at(q, i, e)));
-                            let (vj, dj) =
-                                (lanes(&table.values, table.at(q, j, e)), lanes(&table.slopes, table.at(q, j, e)));
+                            let (vi, di) = (
+                                lanes(&table.values, table.at(q, i, e)),
+                                lanes(&table.slopes, table.at(q, i, e)),
+                            );
+                            let (vj, dj) = (
+                                lanes(&table.values, table.at(q, j, e)),
+                                lanes(&table.slopes, table.at(q, j, e)),
+                            );
                             let at = q * stride + e;
                             let c12 = lanes(c12, at);
                             for x in 0..LANES {
@@ -203,7 +213,8 @@ impl Factorisation {
                             }
                         }
                         // Place (i, j) has the offset j − i, and (j, i) its opposite.
-                        let (there, back) = ((n + j - i) * self.size + k + i, (n + i - j) * self.size + k + j);
+                        let (there, back) =
+                            ((n + j - i) * self.size + k + i, (n + i - j) * self.size + k + j);
                         add(&mut dv[there..], &t_dv[..length]);
                         add(&mut vd[back..], &t_dv[..length]);
                         if j >= i {

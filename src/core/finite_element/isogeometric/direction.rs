@@ -49,7 +49,10 @@ pub(in crate::core::finite_element) struct Direction {
 impl Direction {
     /// The tables with `points` Gauss points in every cell.
     pub(super) fn new(
-        axis: usize, space: &SplineSpace, geometry: &SplineSpace, points: usize,
+        axis: usize,
+        space: &SplineSpace,
+        geometry: &SplineSpace,
+        points: usize,
     ) -> Result<Self, FiniteElementError> {
         let rule = gauss_legendre(points)?;
         let mut breaks = [space.breaks(), geometry.breaks()].concat();

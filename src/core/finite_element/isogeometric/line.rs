@@ -85,7 +85,11 @@ impl Line {
     ///
     /// `SingularJacobian` or `FoldedParametrisation` where the determinant has not the sign `orientation`; `NonFinite`, `NotElliptic`.
     pub(super) fn fill(
-        &mut self, integrand: Integrand<'_>, q1: usize, e1: usize, orientation: f64,
+        &mut self,
+        integrand: Integrand<'_>,
+        q1: usize,
+        e1: usize,
+        orientation: f64,
     ) -> Result<(), FiniteElementError> {
         let [first, second] = integrand.directions;
         self.contract(integrand.patch, first, q1, e1);
@@ -159,8 +163,7 @@ impl Line {
             let (ax, ay, aw) = (&mut ax[range.clone()], &mut ay[range.clone()], &aw[range.clone()]);
             let (bx, by, bw) = (&mut bx[range.clone()], &mut by[range.clone()], &bw[range.clone()]);
             let [c11, c12, c22] = &mut self.diffusion;
-            let [c11, c12, c22] =
-                [&mut c11[range.clone()], &mut c12[range.clone()], &mut c22[range.clone()]];
+            let [c11, c12, c22] = [&mut c11[range.clone()], &mut c12[range.clone()], &mut c22[range.clone()]];
             let (area, weights) = (&mut self.area[range.clone()], &self.weights[range]);
             for e in 0..count {
                 let inverse = 1.0 / w[e];
@@ -200,13 +203,15 @@ impl Line {
             if laplacian {
                 match form.load {
                     Coefficient::Constant(f) => {
-                        for (load, area) in self.load[range.clone()].iter_mut().zip(&self.area[range.clone()]) {
+                        for (load, area) in self.load[range.clone()].iter_mut().zip(&self.area[range.clone()])
+                        {
                             *load = f * area;
                         }
                     }
                     Coefficient::Function(f) => {
                         for at in range.clone() {
-                            self.load[at] = f(DVec2::new(self.fields[0][at], self.fields[1][at])) * self.area[at];
+                            self.load[at] =
+                                f(DVec2::new(self.fields[0][at], self.fields[1][at])) * self.area[at];
                         }
                     }
                 }

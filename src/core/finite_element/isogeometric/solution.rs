@@ -45,7 +45,10 @@ pub(super) struct QuadraturePoint {
 
 impl IsogeometricSolution {
     pub(in crate::core::finite_element) fn new(
-        space: IsogeometricSpace, directions: [Direction; 2], coefficients: Vec<f64>, energy: f64,
+        space: IsogeometricSpace,
+        directions: [Direction; 2],
+        coefficients: Vec<f64>,
+        energy: f64,
         residuals: Vec<f64>,
     ) -> Self {
         Self { space, directions, coefficients, energy, residuals }
@@ -57,7 +60,8 @@ impl IsogeometricSolution {
     ///
     /// `SizeMismatch` unless there are `m₁ m₂` coefficients, `NonFinite`.
     pub fn from_coefficients(
-        space: IsogeometricSpace, coefficients: Vec<f64>,
+        space: IsogeometricSpace,
+        coefficients: Vec<f64>,
     ) -> Result<Self, FiniteElementError> {
         if coefficients.len() != space.coefficient_count() {
             let (expected, found) = (space.coefficient_count(), coefficients.len());
@@ -112,12 +116,7 @@ impl IsogeometricSolution {
             value += row * basis[0].value(i);
             slopes += DVec2::new(row * basis[0].slope(i), row_slope * basis[0].value(i));
         }
-        Ok(SolutionJet {
-            geometry,
-            value,
-            gradient: geometry.gradient(slopes),
-            parameter_gradient: slopes,
-        })
+        Ok(SolutionJet { geometry, value, gradient: geometry.gradient(slopes), parameter_gradient: slopes })
     }
 
     /// Value and gradient at a point of the plane; `None` outside the patch.
@@ -131,11 +130,13 @@ impl IsogeometricSolution {
     /// # Errors
     ///
     /// `SizeMismatch` unless there are as many places; `StepLimit` for a direction with fewer than two parameters.
-    pub fn write_grid(
-        &self, counts: [usize; 2], jets: &mut [SolutionJet],
-    ) -> Result<(), FiniteElementError> {
+    pub fn write_grid(&self, counts: [usize; 2], jets: &mut [SolutionJet]) -> Result<(), FiniteElementError> {
         if let Some(&value) = counts.iter().find(|count| **count < 2) {
-            return Err(FiniteElementError::StepLimit { what: "number of grid lines", value, limit: usize::MAX });
+            return Err(FiniteElementError::StepLimit {
+                what: "number of grid lines",
+                value,
+                limit: usize::MAX,
+            });
         }
         if jets.len() != counts[0].saturating_mul(counts[1]) {
             let (expected, found) = (counts[0].saturating_mul(counts[1]), jets.len());
@@ -164,7 +165,9 @@ impl IsogeometricSolution {
 
     /// Folds all quadrature points of each cell row of the first direction; the results in the order of the rows.
     pub(super) fn fold_points<S: Send>(
-        &self, start: impl Fn() -> S + Sync, step: impl Fn(&mut S, &QuadraturePoint, &Jet) + Sync,
+        &self,
+        start: impl Fn() -> S + Sync,
+        step: impl Fn(&mut S, &QuadraturePoint, &Jet) + Sync,
     ) -> Result<Vec<S>, FiniteElementError> {
         let [first, second] = &self.directions;
         let form = EllipticForm::poisson(Coefficient::Constant(0.0));
@@ -209,10 +212,8 @@ impl IsogeometricSolution {
 
     /// Moves the mean value to 0.
     pub(super) fn subtract_mean(&mut self) -> Result<(), FiniteElementError> {
-        let sums = self.fold_points(
-            || DVec2::ZERO,
-            |sum, at, jet| *sum += at.weight * DVec2::new(jet.value, 1.0),
-        )?;
+        let sums =
+            self.fold_points(|| DVec2::ZERO, |sum, at, jet| *sum += at.weight * DVec2::new(jet.value, 1.0))?;
         let total: DVec2 = sums.into_iter().sum();
         // B-splines sum to 1, so that all coefficients move by the mean.
         self.coefficients.iter_mut().for_each(|c| *c -= total.x / total.y);

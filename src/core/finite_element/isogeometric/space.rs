@@ -39,7 +39,9 @@ impl IsogeometricSpace {
     /// the patch, `SingularJacobian`, `FoldedParametrisation`, `DirichletSideUnknown` for a side where the knots are not
     /// n-fold, `StepLimit`.
     pub fn new(
-        patch: PlanePatch, spaces: [SplineSpace; 2], dirichlet: &[PatchSide],
+        patch: PlanePatch,
+        spaces: [SplineSpace; 2],
+        dirichlet: &[PatchSide],
     ) -> Result<Self, FiniteElementError> {
         check_open(&spaces)?;
         for (axis, space) in spaces.iter().enumerate() {
@@ -86,7 +88,10 @@ impl IsogeometricSpace {
     ///
     /// `DegreeZero`, `StepLimit`, `Empty` for no divisions; those of [`Self::new`].
     pub fn refined(
-        patch: &PlanePatch, degree: usize, divisions: [usize; 2], dirichlet: &[PatchSide],
+        patch: &PlanePatch,
+        degree: usize,
+        divisions: [usize; 2],
+        dirichlet: &[PatchSide],
     ) -> Result<Self, FiniteElementError> {
         let space = |axis: usize| {
             refined_space(&patch.spaces()[axis], degree, divisions[axis])
@@ -182,7 +187,9 @@ impl IsogeometricSpace {
 
 /// See [`IsogeometricSpace::refined`].
 fn refined_space(
-    geometry: &SplineSpace, degree: usize, divisions: usize,
+    geometry: &SplineSpace,
+    degree: usize,
+    divisions: usize,
 ) -> Result<SplineSpace, SplineError> {
     if divisions == 0 {
         return Err(SplineError::Empty { what: "divisions" });

@@ -40,7 +40,8 @@ impl IsogeometricSolution {
 
     /// The sums of [`Self::error_norms`].
     pub(in crate::core::finite_element) fn error_sums(
-        &self, exact: impl Fn(DVec2) -> Jet + Sync,
+        &self,
+        exact: impl Fn(DVec2) -> Jet + Sync,
     ) -> Result<ErrorSums, FiniteElementError> {
         self.sums_against(|at| exact(at.place))
     }
@@ -64,7 +65,8 @@ impl IsogeometricSolution {
     }
 
     fn sums_against(
-        &self, exact: impl Fn(&QuadraturePoint) -> Jet + Sync,
+        &self,
+        exact: impl Fn(&QuadraturePoint) -> Jet + Sync,
     ) -> Result<ErrorSums, FiniteElementError> {
         let rows =
             self.fold_points(ErrorSums::default, |sums, at, jet| sums.add(at.weight, jet, &exact(at)))?;
@@ -90,8 +92,13 @@ pub(in crate::core::finite_element) fn finite(norms: ErrorNorms) -> Result<Error
 ///
 /// Those of [`IsogeometricSpace::refined`], [`solve_patch`] and [`IsogeometricSolution::error_norms`].
 pub fn convergence_study(
-    patch: &PlanePatch, degree: usize, divisions: &[usize], dirichlet: &[PatchSide], form: &EllipticForm<'_>,
-    exact: impl Fn(DVec2) -> Jet + Sync, watcher: &dyn Watcher,
+    patch: &PlanePatch,
+    degree: usize,
+    divisions: &[usize],
+    dirichlet: &[PatchSide],
+    form: &EllipticForm<'_>,
+    exact: impl Fn(DVec2) -> Jet + Sync,
+    watcher: &dyn Watcher,
 ) -> Result<Vec<StudyRow>, FiniteElementError> {
     let count = divisions.len().max(1) as f64;
     let row = |(index, &divisions): (usize, &usize)| {
@@ -133,7 +140,8 @@ mod tests {
         let form = EllipticForm::poisson(Coefficient::Function(&load));
         for degree in 1..=5 {
             let divisions = [8, 16];
-            let rows = convergence_study(&patch, degree, &divisions, &PatchSide::ALL, &form, exact, &Unwatched);
+            let rows =
+                convergence_study(&patch, degree, &divisions, &PatchSide::ALL, &form, exact, &Unwatched);
             let rows = rows.unwrap();
             let widths: Vec<f64> = rows.iter().map(|row| row.width).collect();
             let l2: Vec<f64> = rows.iter().map(|row| row.norms.l2).collect();

@@ -72,7 +72,10 @@ pub struct IsogeometricSystem {
 ///
 /// Those of [`IsogeometricSystem::assemble`] and [`IsogeometricSystem::solve`].
 pub fn solve_patch(
-    space: IsogeometricSpace, form: &EllipticForm<'_>, fluxes: &[SideFlux<'_>], watcher: &dyn Watcher,
+    space: IsogeometricSpace,
+    form: &EllipticForm<'_>,
+    fluxes: &[SideFlux<'_>],
+    watcher: &dyn Watcher,
 ) -> Result<IsogeometricSolution, FiniteElementError> {
     let assembling = Part { whole: watcher, from: 0.0, to: 0.6 };
     let system = IsogeometricSystem::assemble(space, form, fluxes, &assembling)?;
@@ -86,7 +89,10 @@ impl IsogeometricSystem {
     ///
     /// `NonFinite` and `NotElliptic` name a point where the data are bad; `Stopped`.
     pub fn assemble(
-        space: IsogeometricSpace, form: &EllipticForm<'_>, fluxes: &[SideFlux<'_>], watcher: &dyn Watcher,
+        space: IsogeometricSpace,
+        form: &EllipticForm<'_>,
+        fluxes: &[SideFlux<'_>],
+        watcher: &dyn Watcher,
     ) -> Result<Self, FiniteElementError> {
         let directions = space.directions()?;
         let integrand = Integrand { patch: space.patch(), directions: &directions, form };
@@ -122,7 +128,11 @@ impl IsogeometricSystem {
     pub fn with_right_side(mut self, right_side: Vec<f64>) -> Result<Self, FiniteElementError> {
         if right_side.len() != self.right_side.len() {
             let (expected, found) = (self.right_side.len(), right_side.len());
-            return Err(FiniteElementError::SizeMismatch { what: "entries of the right side", expected, found });
+            return Err(FiniteElementError::SizeMismatch {
+                what: "entries of the right side",
+                expected,
+                found,
+            });
         }
         self.right_side = right_side;
         Ok(self)
@@ -150,7 +160,9 @@ impl IsogeometricSystem {
 
     /// The function with these coefficients.
     pub(in crate::core::finite_element) fn into_solution(
-        self, coefficients: Vec<f64>, residuals: Vec<f64>,
+        self,
+        coefficients: Vec<f64>,
+        residuals: Vec<f64>,
     ) -> IsogeometricSolution {
         let mut product = vec![0.0; coefficients.len()];
         self.matrix.apply(&coefficients, &mut product);
@@ -241,7 +253,10 @@ fn separate(samples: &[f64], rows: usize, columns: usize) -> (Vec<f64>, Vec<f64>
 
 /// `∫ stiffness b′ᵢ b′ⱼ` and `∫ mass bᵢ bⱼ` with one coefficient for each cell.
 fn direction_matrices(
-    direction: &Direction, size: usize, stiffness: &[f64], mass: &[f64],
+    direction: &Direction,
+    size: usize,
+    stiffness: &[f64],
+    mass: &[f64],
 ) -> Result<DirectionMatrices, LinearSystemError> {
     let table = &direction.solution;
     let (mut k, mut m) = (vec![0.0; size * size], vec![0.0; size * size]);
@@ -266,13 +281,15 @@ fn direction_matrices(
 
 /// Adds `∫ g bₖ ds` over a side.
 fn add_flux(
-    space: &IsogeometricSpace, directions: &[Direction; 2], flux: &SideFlux<'_>, right_side: &mut [f64],
+    space: &IsogeometricSpace,
+    directions: &[Direction; 2],
+    flux: &SideFlux<'_>,
+    right_side: &mut [f64],
 ) -> Result<(), FiniteElementError> {
     let (across, along) = (flux.side.axis(), 1 - flux.side.axis());
     let direction = &directions[along];
     let ends = space.spaces()[across].parameter_interval();
-    let normal =
-        active(&space.spaces()[across], across, if flux.side.at_end() { ends.1 } else { ends.0 })?;
+    let normal = active(&space.spaces()[across], across, if flux.side.at_end() { ends.1 } else { ends.0 })?;
     for e in 0..direction.cells {
         for q in 0..direction.rule.count() {
             let (parameter, weight) = direction.point(q, e);
@@ -354,7 +371,8 @@ mod tests {
         for (x, v) in points(&directions[0]) {
             for (y, w) in points(&directions[1]) {
                 let jet = patch.jet(DVec2::new(x, y)).unwrap();
-                let basis = [active(&space.spaces()[0], 0, x).unwrap(), active(&space.spaces()[1], 1, y).unwrap()];
+                let basis =
+                    [active(&space.spaces()[0], 0, x).unwrap(), active(&space.spaces()[1], 1, y).unwrap()];
                 let functions: Vec<(usize, f64, DVec2)> = (0..3)
                     .flat_map(|i| (0..4).map(move |j| (i, j)))
                     .map(|(i, j)| {
@@ -423,10 +441,8 @@ mod tests {
             let space = IsogeometricSpace::refined(patch, 3, divisions, &[side]).unwrap();
             solve_patch(space, &form(1.0), &[], &Unwatched).unwrap().integral().unwrap()
         };
-        let (straight, mirrored) = (
-            integral(&patch, PatchSide::Bottom, [3, 5]),
-            integral(&turned, PatchSide::Left, [5, 3]),
-        );
+        let (straight, mirrored) =
+            (integral(&patch, PatchSide::Bottom, [3, 5]), integral(&turned, PatchSide::Left, [5, 3]));
         assert!((straight - mirrored).abs() < 1e-10, "{straight} and {mirrored}");
     }
 
@@ -434,8 +450,7 @@ mod tests {
     fn on_the_annulus_the_separable_system_is_nearly_the_system() {
         for (degree, divisions) in [(1, 8), (3, 8), (3, 40), (5, 20)] {
             let patch = sample::quarter_annulus(1.0, 2.0).unwrap();
-            let space =
-                IsogeometricSpace::refined(&patch, degree, [divisions; 2], &PatchSide::ALL).unwrap();
+            let space = IsogeometricSpace::refined(&patch, degree, [divisions; 2], &PatchSide::ALL).unwrap();
             let solution = solve_patch(space, &form(1.0), &[], &Unwatched).unwrap();
             let steps = solution.residuals().len() - 1;
             assert!(steps <= 12, "degree {degree}, {divisions} divisions: {steps} steps");

@@ -86,7 +86,10 @@ fn sample_side(patch: &PlanePatch, side: PatchSide) -> Result<Vec<DVec2>, Finite
 
 /// Whether the traces on both sides are the same functions of the points, in corresponding order.
 fn fits(
-    first: &IsogeometricSpace, first_side: PatchSide, second: &IsogeometricSpace, second_side: PatchSide,
+    first: &IsogeometricSpace,
+    first_side: PatchSide,
+    second: &IsogeometricSpace,
+    second_side: PatchSide,
     reversed: bool,
 ) -> bool {
     let interpolates = |space: &IsogeometricSpace, side: PatchSide| {
@@ -94,8 +97,7 @@ fn fits(
         let (left, right) = across.parameter_interval();
         across.multiplicity(if side.at_end() { right } else { left }) == across.degree()
     };
-    let along =
-        |space: &IsogeometricSpace, side: PatchSide| relative_knots(&space.spaces()[1 - side.axis()]);
+    let along = |space: &IsogeometricSpace, side: PatchSide| relative_knots(&space.spaces()[1 - side.axis()]);
     let (one, mut other) = (along(first, first_side), along(second, second_side));
     if reversed {
         other = other.into_iter().rev().map(|knot| 1.0 - knot).collect();

@@ -105,7 +105,10 @@ impl MultiPatch {
     ///
     /// Those of [`IsogeometricSpace::refined`], which name the patch, and of [`Self::new`].
     pub fn refined(
-        patches: &[PlanePatch], degree: usize, divisions: usize, fixed: FixedSides<'_>,
+        patches: &[PlanePatch],
+        degree: usize,
+        divisions: usize,
+        fixed: FixedSides<'_>,
     ) -> Result<Self, FiniteElementError> {
         let space = |(number, patch): (usize, &PlanePatch)| {
             IsogeometricSpace::refined(patch, degree, [divisions; 2], &[])
@@ -145,7 +148,9 @@ impl MultiPatch {
     ///
     /// `SingularSystem` if no side is fixed and `c = 0`; errors of the assembly, which name the patch; `NotConverged`.
     pub fn solve(
-        &self, form: &EllipticForm<'_>, watcher: &dyn Watcher,
+        &self,
+        form: &EllipticForm<'_>,
+        watcher: &dyn Watcher,
     ) -> Result<MultiPatchSolution, FiniteElementError> {
         if self.unknowns == self.coefficients && form.kills_constants() {
             return Err(FiniteElementError::SingularSystem);
@@ -306,9 +311,7 @@ impl Classes {
     }
 
     /// Numbers in the order of the patches, the classes that are fixed last; numbers of unknowns and of classes.
-    fn number(
-        mut self, spaces: &[IsogeometricSpace], is_fixed: &[bool],
-    ) -> (Vec<Vec<usize>>, usize, usize) {
+    fn number(mut self, spaces: &[IsogeometricSpace], is_fixed: &[bool]) -> (Vec<Vec<usize>>, usize, usize) {
         let mut of_class = vec![usize::MAX; self.parents.len()];
         let mut next = 0;
         let mut unknowns = 0;
@@ -366,10 +369,8 @@ mod tests {
         let unknowns = space.dimension();
         let single = solve_patch(space, &form(), &[], &Unwatched).unwrap();
         for position in 0..8 {
-            let patches = [
-                rectangle(DVec2::ZERO, DVec2::ONE, 0),
-                rectangle(DVec2::X, DVec2::new(2.0, 1.0), position),
-            ];
+            let patches =
+                [rectangle(DVec2::ZERO, DVec2::ONE, 0), rectangle(DVec2::X, DVec2::new(2.0, 1.0), position)];
             let domain = MultiPatch::refined(&patches, 2, 2, FixedSides::All).unwrap();
             assert_eq!(domain.interfaces().len(), 1, "position {position}: {:?}", domain.interfaces());
             assert_eq!(domain.dimension(), unknowns, "position {position}");
@@ -404,7 +405,9 @@ mod tests {
         let bulged = PlanePatch::bezier(
             [2, 1],
             DVec2::ONE,
-            [[0.0, 0.0], [0.0, -1.0], [0.5, 0.1], [0.5, -1.0], [1.0, 0.0], [1.0, -1.0]].map(DVec2::from).to_vec(),
+            [[0.0, 0.0], [0.0, -1.0], [0.5, 0.1], [0.5, -1.0], [1.0, 0.0], [1.0, -1.0]]
+                .map(DVec2::from)
+                .to_vec(),
             vec![1.0; 6],
         );
         let mismatch = MultiPatch::refined(&[square.clone(), bulged.unwrap()], 2, 2, FixedSides::All);
@@ -416,9 +419,8 @@ mod tests {
             other => panic!("{other}"),
         }
         let below = rectangle(DVec2::NEG_Y, DVec2::X, 0);
-        let spaces = [(&square, 2), (&below, 3)].map(|(patch, divisions)| {
-            IsogeometricSpace::refined(patch, 2, [divisions; 2], &[]).unwrap()
-        });
+        let spaces = [(&square, 2), (&below, 3)]
+            .map(|(patch, divisions)| IsogeometricSpace::refined(patch, 2, [divisions; 2], &[]).unwrap());
         let error = MultiPatch::new(spaces.to_vec(), FixedSides::All).unwrap_err();
         assert_eq!(error.name(), "KnotMismatch", "two and three intervals");
         let pair = [square.clone(), below];
@@ -434,9 +436,15 @@ mod tests {
         assert_eq!(fix(&[(1, PatchSide::Bottom)]), Ok(()), "one side fixed");
         let folded = square.with_point(3, DVec2::new(0.1, 0.1)).unwrap();
         match MultiPatch::refined(&[square, folded], 2, 2, FixedSides::All).unwrap_err() {
-            FiniteElementError::FoldedParametrisation { patch, .. } => assert_eq!(patch, 1, "the second patch"),
+            FiniteElementError::FoldedParametrisation { patch, .. } => {
+                assert_eq!(patch, 1, "the second patch")
+            }
             other => panic!("{other}"),
         }
-        assert_eq!(MultiPatch::new(Vec::new(), FixedSides::All).unwrap_err().name(), "EmptyDomain", "no patch");
+        assert_eq!(
+            MultiPatch::new(Vec::new(), FixedSides::All).unwrap_err().name(),
+            "EmptyDomain",
+            "no patch"
+        );
     }
 }
