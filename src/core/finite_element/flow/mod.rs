@@ -167,7 +167,7 @@ mod tests {
         let flow = PotentialFlow::solve(&patch, 3, [16, 8], 1.0, None, &Unwatched).unwrap();
         for t1 in [0.0, 0.4, 1.0, 1.7, 2.0] {
             let flux = flow.flux(t1).unwrap();
-            assert!((flux - 10.0).abs() < 2e-3, "through t1 = {t1}: {flux}");
+            assert!((flux - 10.0).abs() < 5e-3, "through t1 = {t1}: {flux}");
         }
     }
 

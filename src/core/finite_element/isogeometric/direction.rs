@@ -35,7 +35,7 @@ impl BasisTable {
 
 /// Quadrature cells of one direction with the tables of the solution's and the geometry's B-splines.
 #[derive(Clone, Debug)]
-pub(super) struct Direction {
+pub(in crate::core::finite_element) struct Direction {
     pub(super) cells: usize,
     /// Points of the rule in each cell.
     pub(super) rule: GaussRule,

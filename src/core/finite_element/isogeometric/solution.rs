@@ -220,3 +220,38 @@ impl IsogeometricSolution {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
+    use super::*;
+    use crate::core::finite_element::sample_geometries as sample;
+
+    #[test]
+    fn a_linear_function_has_its_values_and_gradient_everywhere() {
+        let patch = sample::book_patch();
+        // u = 2 + x − 3 y has the coefficients of the control points.
+        let linear = |x: DVec2| 2.0 + x.x - 3.0 * x.y;
+        let coefficients = patch.points().iter().map(|point| linear(*point)).collect();
+        let space = IsogeometricSpace::new(patch.clone(), patch.spaces().clone(), &[]).unwrap();
+        let solution = IsogeometricSolution::from_coefficients(space, coefficients).unwrap();
+        let mut grid = vec![solution.jet(DVec2::ZERO).unwrap(); 35];
+        solution.write_grid([5, 7], &mut grid).unwrap();
+        for jet in &grid {
+            let error = jet.value - linear(jet.geometry.point);
+            assert!(error.abs() < 1e-13, "{jet:?}");
+            assert!((jet.gradient - DVec2::new(1.0, -3.0)).length() < 1e-12, "{jet:?}");
+        }
+        assert_eq!(grid[34].geometry.point, DVec2::new(4.0, 2.0), "the last corner");
+        let place = DVec2::new(1.0, 1.0);
+        assert!((solution.jet_at(place).unwrap().value).abs() < 1e-11, "2 + 1 − 3");
+        assert!(solution.jet_at(DVec2::new(-1.0, 0.0)).is_none(), "outside");
+        let sizes = |counts: [usize; 2], places: usize| {
+            let mut grid = vec![grid[0]; places];
+            solution.write_grid(counts, &mut grid).unwrap_err().name()
+        };
+        assert_eq!(sizes([2, 2], 5), "SizeMismatch", "five places");
+        assert_eq!(sizes([1, 2], 2), "StepLimit", "one line");
+    }
+}

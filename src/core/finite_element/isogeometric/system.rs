@@ -313,3 +313,201 @@ fn add_flux(
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
+    use super::*;
+    use crate::core::bspline::SplineSpace;
+    use crate::core::finite_element::form::Coefficient;
+    use crate::core::finite_element::geometry::PlanePatch;
+    use crate::core::finite_element::sample_geometries as sample;
+    use crate::core::progress::Unwatched;
+    use glam::DMat2;
+    use proptest::prelude::*;
+
+    fn form(load: f64) -> EllipticForm<'static> {
+        EllipticForm::poisson(Coefficient::Constant(load))
+    }
+
+    /// A biquadratic patch over two by one knot cells, with an inner knot, weights, and points moved by `shifts`.
+    fn random_patch(shifts: &[f64]) -> PlanePatch {
+        let first = SplineSpace::new(2, vec![-1.0, 0.0, 0.0, 0.4, 1.0, 1.0, 2.0]).unwrap();
+        let second = SplineSpace::new(2, vec![-1.0, 0.0, 0.0, 1.0, 1.0, 2.0]).unwrap();
+        let point = |k: usize| {
+            let (i, j) = (k / 3, k % 3);
+            DVec2::new(i as f64 + 0.3 * shifts[2 * k], j as f64 + 0.3 * shifts[2 * k + 1])
+        };
+        let weights = (0..12).map(|k| 1.0 + 0.3 * shifts[k]).collect();
+        PlanePatch::new([first, second], (0..12).map(point).collect(), weights).unwrap()
+    }
+
+    #[test]
+    fn entries_are_the_integrals_of_their_definition() {
+        let shifts: Vec<f64> = (0..24).map(|i| ((i * 7) % 11) as f64 / 11.0 - 0.5).collect();
+        let patch = random_patch(&shifts);
+        // Knots of the solution that the geometry lacks, and the other way round; one of them double.
+        let first = SplineSpace::new(2, vec![-1.0, 0.0, 0.0, 0.7, 0.7, 1.0, 1.0, 2.0]).unwrap();
+        let second = SplineSpace::new(3, vec![-1.0, -0.5, -0.1, 0.0, 0.5, 1.0, 1.2, 1.3, 2.0]).unwrap();
+        let space = IsogeometricSpace::new(patch.clone(), [first, second], &[PatchSide::Left]).unwrap();
+        let space = space.with_gauss_points([5, 6]).unwrap();
+        let diffusion = |x: DVec2| DMat2::from_cols_array(&[2.0 + x.x, 0.5, 0.5, 1.5]);
+        let (reaction, load) = (|x: DVec2| 1.0 + x.y * x.y, |x: DVec2| (x.x - x.y).sin());
+        let form = EllipticForm {
+            diffusion: Coefficient::Function(&diffusion),
+            reaction: Coefficient::Function(&reaction),
+            load: Coefficient::Function(&load),
+        };
+        let system = IsogeometricSystem::assemble(space.clone(), &form, &[], &Unwatched).unwrap();
+        let [m1, m2] = space.sizes();
+        let mut matrix = vec![vec![0.0; m1 * m2]; m1 * m2];
+        let mut right_side = vec![0.0; m1 * m2];
+        let directions = space.directions().unwrap();
+        let points = |direction: &Direction| -> Vec<(f64, f64)> {
+            let cells = 0..direction.cells;
+            cells.flat_map(|e| (0..direction.rule.count()).map(move |q| direction.point(q, e))).collect()
+        };
+        for (x, v) in points(&directions[0]) {
+            for (y, w) in points(&directions[1]) {
+                let jet = patch.jet(DVec2::new(x, y)).unwrap();
+                let basis =
+                    [active(&space.spaces()[0], 0, x).unwrap(), active(&space.spaces()[1], 1, y).unwrap()];
+                let functions: Vec<(usize, f64, DVec2)> = (0..3)
+                    .flat_map(|i| (0..4).map(move |j| (i, j)))
+                    .map(|(i, j)| {
+                        let gradient = DVec2::new(
+                            basis[0].slope(i) * basis[1].value(j),
+                            basis[0].value(i) * basis[1].slope(j),
+                        );
+                        let k = (basis[0].first + i) * m2 + basis[1].first + j;
+                        (k, basis[0].value(i) * basis[1].value(j), jet.gradient(gradient))
+                    })
+                    .collect();
+                let total = v * w * jet.determinant().abs();
+                let at = form.at(jet.point).unwrap();
+                for (k, value, gradient) in &functions {
+                    right_side[*k] += total * at.load * value;
+                    for (l, other, other_gradient) in &functions {
+                        matrix[*k][*l] += total
+                            * (gradient.dot(at.diffusion * *other_gradient) + at.reaction * value * other);
+                    }
+                }
+            }
+        }
+        for k in 0..m1 * m2 {
+            let error = system.right_side()[k] - right_side[k];
+            assert!(error.abs() < 1e-13, "right side {k} is off by {error}");
+            for l in 0..m1 * m2 {
+                let got = system.matrix().entry([k / m2, k % m2], [l / m2, l % m2]);
+                assert!((got - matrix[k][l]).abs() < 1e-11, "({k}, {l}): {got}, expected {}", matrix[k][l]);
+            }
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(24))]
+
+        #[test]
+        fn linear_functions_pass_the_patch_test(shifts in prop::collection::vec(-0.5..0.5_f64, 24)) {
+            // u = x₁ has −Δu = 0 and the flux n₁; with weights 1 it lies in the space of the geometry.
+            let patch = random_patch(&shifts);
+            let patch = PlanePatch::polynomial(patch.spaces().clone(), patch.points().to_vec()).unwrap();
+            prop_assume!(patch.check_regular().is_ok());
+            let space = IsogeometricSpace::new(patch.clone(), patch.spaces().clone(), &[]).unwrap();
+            let system = IsogeometricSystem::assemble(space, &form(0.0), &[], &Unwatched).unwrap();
+            let u: Vec<f64> = patch.points().iter().map(|point| point.x).collect();
+            let mut load = vec![0.0; u.len()];
+            system.matrix().apply(&u, &mut load);
+            let energy: f64 = u.iter().zip(&load).map(|(u, f)| u * f).sum();
+            prop_assert!((energy - patch.area()).abs() < 1e-11, "a(x, x) is {energy}, the area {}", patch.area());
+            let mut constant = vec![0.0; u.len()];
+            system.matrix().apply(&vec![1.0; u.len()], &mut constant);
+            prop_assert!(constant.iter().all(|g| g.abs() < 1e-12), "constants are in the kernel: {constant:?}");
+            let solution = system.with_right_side(load).unwrap().solve(&Unwatched).unwrap();
+            let jet = solution.jet(DVec2::new(0.3, 0.6)).unwrap();
+            prop_assert!((jet.gradient - DVec2::X).length() < 1e-9, "the gradient is {}", jet.gradient);
+            prop_assert!(solution.integral().unwrap().abs() < 1e-9, "the mean value is 0");
+        }
+    }
+
+    #[test]
+    fn a_patch_that_turns_orientation_has_the_same_solution() {
+        let patch = sample::book_patch();
+        let points = (0..6).map(|k| patch.points()[(k % 2) * 3 + k / 2]).collect();
+        let [first, second] = patch.spaces().clone();
+        let turned = PlanePatch::polynomial([second, first], points).unwrap();
+        let integral = |patch: &PlanePatch, side: PatchSide, divisions: [usize; 2]| {
+            let space = IsogeometricSpace::refined(patch, 3, divisions, &[side]).unwrap();
+            solve_patch(space, &form(1.0), &[], &Unwatched).unwrap().integral().unwrap()
+        };
+        let (straight, mirrored) =
+            (integral(&patch, PatchSide::Bottom, [3, 5]), integral(&turned, PatchSide::Left, [5, 3]));
+        assert!((straight - mirrored).abs() < 1e-10, "{straight} and {mirrored}");
+    }
+
+    #[test]
+    fn on_the_annulus_the_separable_system_is_nearly_the_system() {
+        for (degree, divisions) in [(1, 8), (3, 8), (3, 40), (5, 20)] {
+            let patch = sample::quarter_annulus(1.0, 2.0).unwrap();
+            let space = IsogeometricSpace::refined(&patch, degree, [divisions; 2], &PatchSide::ALL).unwrap();
+            let solution = solve_patch(space, &form(1.0), &[], &Unwatched).unwrap();
+            let steps = solution.residuals().len() - 1;
+            assert!(steps <= 12, "degree {degree}, {divisions} divisions: {steps} steps");
+        }
+    }
+
+    #[test]
+    fn sides_with_a_flux_take_it() {
+        // u = x² − y² on the annulus: the flux through r = 2 is ∂ᵣ r² cos 2θ = 2 r cos 2θ, through r = 1 its negative;
+        // on the axes the normal derivative vanishes.
+        let patch = sample::quarter_annulus(1.0, 2.0).unwrap();
+        let space = IsogeometricSpace::refined(&patch, 4, [12, 12], &[]).unwrap();
+        let outward = |x: DVec2| 2.0 * (x.x * x.x - x.y * x.y) / x.length();
+        let inward = |x: DVec2| -outward(x);
+        let fluxes = [
+            SideFlux { side: PatchSide::Right, flux: &outward },
+            SideFlux { side: PatchSide::Left, flux: &inward },
+        ];
+        let solution = solve_patch(space.clone(), &form(0.0), &fluxes, &Unwatched).unwrap();
+        let jet = solution.jet_at(DVec2::new(1.0, 1.2)).unwrap();
+        let error = jet.gradient - DVec2::new(2.0, -2.4);
+        assert!(error.length() < 1e-4, "the gradient is off by {error}");
+        let one = [SideFlux { side: PatchSide::Right, flux: &|_| 1.0 }];
+        let error = solve_patch(space, &form(0.0), &one, &Unwatched).unwrap_err();
+        assert_eq!(error.name(), "IncompatibleData", "more in than out");
+    }
+
+    #[test]
+    fn bad_data_is_refused() {
+        let square = sample::unit_square();
+        let refined = |degree: usize, divisions: usize| {
+            IsogeometricSpace::refined(&square, degree, [divisions, 2], &PatchSide::ALL)
+                .map(|_| ())
+                .map_err(|error| error.name())
+        };
+        assert_eq!(refined(0, 2), Err("DegreeZero"), "degree 0");
+        assert_eq!(refined(2, 0), Err("Empty"), "no divisions");
+        assert_eq!(refined(2, usize::MAX), Err("StepLimit"), "too many");
+        let folded = square.with_point(3, DVec2::new(0.1, 0.1)).unwrap();
+        let error = IsogeometricSpace::refined(&folded, 2, [2, 2], &[]).unwrap_err();
+        assert_eq!(error.name(), "FoldedParametrisation", "a folded patch");
+        let simple = SplineSpace::uniform(2, 0.0, 1.0, 3).unwrap();
+        let spaces = [simple.clone(), simple];
+        let error = IsogeometricSpace::new(square.clone(), spaces, &[PatchSide::Top]).unwrap_err();
+        assert_eq!(error.name(), "DirichletSideUnknown", "simple end knots");
+        let long = SplineSpace::uniform(2, 0.0, 2.0, 3).unwrap();
+        let error = IsogeometricSpace::new(square.clone(), [long.clone(), long], &[]).unwrap_err();
+        assert_eq!(error.name(), "OutsideInterval", "another interval");
+        let space = IsogeometricSpace::refined(&square, 2, [3, 3], &PatchSide::ALL).unwrap();
+        let hole = |x: DVec2| if x.x > 0.5 { f64::NAN } else { 1.0 };
+        let bad = EllipticForm::poisson(Coefficient::Function(&hole));
+        let error = solve_patch(space.clone(), &bad, &[], &Unwatched).unwrap_err();
+        assert_eq!(error.name(), "NonFinite", "a load with a hole");
+        let error = solve_patch(space.clone(), &form(1.0), &[], &|_: f64| false).unwrap_err();
+        assert_eq!(error.name(), "Stopped", "nobody wants to wait");
+        let smallest = IsogeometricSpace::refined(&square, 1, [1, 1], &PatchSide::ALL).unwrap();
+        let solution = solve_patch(smallest, &form(1.0), &[], &Unwatched).unwrap();
+        assert_eq!(solution.coefficients(), [0.0; 4], "no unknowns");
+    }
+}

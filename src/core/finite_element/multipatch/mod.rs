@@ -333,3 +333,118 @@ impl Classes {
         (numbers.collect(), unknowns, next)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
+    use super::*;
+    use crate::core::bspline::{EndKnots, SplineSpace};
+    use crate::core::finite_element::form::Coefficient;
+    use crate::core::finite_element::isogeometric::solve_patch;
+    use crate::core::finite_element::sample_geometries as sample;
+    use crate::core::progress::Unwatched;
+
+    fn form() -> EllipticForm<'static> {
+        EllipticForm::poisson(Coefficient::Constant(1.0))
+    }
+
+    /// A rectangle whose first direction, second direction or both may run backwards, or be exchanged.
+    fn rectangle(low: DVec2, high: DVec2, position: usize) -> PlanePatch {
+        let corner = |i: usize, j: usize| {
+            let (i, j) = if position & 4 == 0 { (i, j) } else { (j, i) };
+            let (i, j) = (i ^ (position & 1), j ^ (position >> 1 & 1));
+            DVec2::new([low.x, high.x][i], [low.y, high.y][j])
+        };
+        let points = vec![corner(0, 0), corner(0, 1), corner(1, 0), corner(1, 1)];
+        PlanePatch::polynomial(sample::unit_square().spaces().clone(), points).unwrap()
+    }
+
+    #[test]
+    fn two_patches_in_any_position_are_one_patch_with_a_kink() {
+        let whole = rectangle(DVec2::ZERO, DVec2::new(2.0, 1.0), 0);
+        let kinked = SplineSpace::from_breaks(2, &[0.0, 0.25, 0.5, 0.5, 0.75, 1.0], EndKnots::Interpolating);
+        let other = SplineSpace::from_breaks(2, &[0.0, 0.5, 1.0], EndKnots::Interpolating).unwrap();
+        let space = IsogeometricSpace::new(whole, [kinked.unwrap(), other], &PatchSide::ALL).unwrap();
+        let unknowns = space.dimension();
+        let single = solve_patch(space, &form(), &[], &Unwatched).unwrap();
+        for position in 0..8 {
+            let patches =
+                [rectangle(DVec2::ZERO, DVec2::ONE, 0), rectangle(DVec2::X, DVec2::new(2.0, 1.0), position)];
+            let domain = MultiPatch::refined(&patches, 2, 2, FixedSides::All).unwrap();
+            assert_eq!(domain.interfaces().len(), 1, "position {position}: {:?}", domain.interfaces());
+            assert_eq!(domain.dimension(), unknowns, "position {position}");
+            let joined = domain.solve(&form(), &Unwatched).unwrap();
+            let difference = joined.integral().unwrap() - single.integral().unwrap();
+            assert!(difference.abs() < 1e-12, "position {position}: {difference}");
+            let place = DVec2::new(1.3, 0.4);
+            let (patch, jet) = joined.jet_at(place).unwrap();
+            assert_eq!(patch, 1, "position {position}: the right one");
+            let value = single.jet_at(place).unwrap().value;
+            assert!((jet.value - value).abs() < 1e-12, "position {position}: {} and {value}", jet.value);
+        }
+    }
+
+    #[test]
+    fn a_ring_of_four_quarters_is_closed_and_has_the_radial_solution() {
+        // −Δu = 1 with u = 0 at r = 1 and r = 2: u = (1 − r²)/4 + 3 ln r / (4 ln 2).
+        let exact = |x: DVec2| {
+            let (r, c) = (x.length(), 0.75 / 2.0_f64.ln());
+            Jet { value: 0.25 * (1.0 - r * r) + c * r.ln(), gradient: x * (c / (r * r) - 0.5) }
+        };
+        let ring = sample::annulus(1.0, 2.0).unwrap();
+        let domain = MultiPatch::refined(&ring, 3, 6, FixedSides::All).unwrap();
+        assert_eq!(domain.interfaces().len(), 4, "each quarter meets two others");
+        let norms = domain.solve(&form(), &Unwatched).unwrap().error_norms(exact).unwrap();
+        assert!(norms.relative_l2() < 1e-4, "{norms:?}");
+    }
+
+    #[test]
+    fn what_does_not_fit_is_named() {
+        let square = rectangle(DVec2::ZERO, DVec2::ONE, 0);
+        let bulged = PlanePatch::bezier(
+            [2, 1],
+            DVec2::ONE,
+            [[0.0, 0.0], [0.0, -1.0], [0.5, 0.1], [0.5, -1.0], [1.0, 0.0], [1.0, -1.0]]
+                .map(DVec2::from)
+                .to_vec(),
+            vec![1.0; 6],
+        );
+        let mismatch = MultiPatch::refined(&[square.clone(), bulged.unwrap()], 2, 2, FixedSides::All);
+        match mismatch.unwrap_err() {
+            FiniteElementError::InterfaceMismatch { first, second, distance } => {
+                assert_eq!((first, second), ((0, PatchSide::Bottom), (1, PatchSide::Bottom)), "the sides");
+                assert!((distance - 0.05).abs() < 1e-12, "half of the middle point's offset: {distance}");
+            }
+            other => panic!("{other}"),
+        }
+        let below = rectangle(DVec2::NEG_Y, DVec2::X, 0);
+        let spaces = [(&square, 2), (&below, 3)]
+            .map(|(patch, divisions)| IsogeometricSpace::refined(patch, 2, [divisions; 2], &[]).unwrap());
+        let error = MultiPatch::new(spaces.to_vec(), FixedSides::All).unwrap_err();
+        assert_eq!(error.name(), "KnotMismatch", "two and three intervals");
+        let pair = [square.clone(), below];
+        let fix = |sides: &[(usize, PatchSide)]| {
+            MultiPatch::refined(&pair, 2, 2, FixedSides::These(sides))
+                .and_then(|domain| domain.solve(&form(), &Unwatched))
+                .map(|_| ())
+                .map_err(|error| error.name())
+        };
+        assert_eq!(fix(&[(2, PatchSide::Top)]), Err("DirichletSideUnknown"), "no third patch");
+        assert_eq!(fix(&[(0, PatchSide::Bottom)]), Err("DirichletSideUnknown"), "an interface");
+        assert_eq!(fix(&[]), Err("SingularSystem"), "nothing fixed");
+        assert_eq!(fix(&[(1, PatchSide::Bottom)]), Ok(()), "one side fixed");
+        let folded = square.with_point(3, DVec2::new(0.1, 0.1)).unwrap();
+        match MultiPatch::refined(&[square, folded], 2, 2, FixedSides::All).unwrap_err() {
+            FiniteElementError::FoldedParametrisation { patch, .. } => {
+                assert_eq!(patch, 1, "the second patch")
+            }
+            other => panic!("{other}"),
+        }
+        assert_eq!(
+            MultiPatch::new(Vec::new(), FixedSides::All).unwrap_err().name(),
+            "EmptyDomain",
+            "no patch"
+        );
+    }
+}
