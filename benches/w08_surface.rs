@@ -22,7 +22,8 @@ fn main() {
         (0..2500).flat_map(|k| [at(k / 50), at(k % 50), height(k / 50, k % 50)]).collect()
     });
     let points: Vec<DVec3> = flat.chunks_exact(3).map(DVec3::from_slice).collect();
-    let weights = load("s_wts").unwrap_or_else(|| (0..2500).map(|k| 0.5 + f64::from(k * 37 % 101) / 101.0).collect());
+    let weights =
+        load("s_wts").unwrap_or_else(|| (0..2500).map(|k| 0.5 + f64::from(k * 37 % 101) / 101.0).collect());
     let parameters: Vec<f64> = (0..1000).map(|i| f64::from(i) / 999.0).collect();
     let (mut places, mut normals) = (vec![DVec3::ZERO; 1_000_000], vec![DVec3::ZERO; 1_000_000]);
     let polynomial = NurbsSurface::polynomial(space.clone(), points.clone()).unwrap();

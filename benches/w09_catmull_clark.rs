@@ -16,7 +16,8 @@ fn main() {
         let positions = mesh.positions().to_vec();
         let loops: Vec<Vec<u32>> = mesh.topology().faces().map(<[u32]>::to_vec).collect();
         let mut refined = RefinedMesh::default();
-        let how = "connectivity of the cage, all levels, last level faces and f64 positions; buffers used again";
+        let how =
+            "connectivity of the cage, all levels, last level faces and f64 positions; buffers used again";
         report::measure(&format!("W9-{tag}-total"), faces, how, || {
             let mesh = PolygonMesh::new(positions.clone(), &loops).unwrap();
             mesh.refine_into(levels, RULE, &mut refined).unwrap();
@@ -27,11 +28,20 @@ fn main() {
             std::hint::black_box(&refined);
         });
         let mut full = Vec::new();
-        report::measure(&format!("W9-{tag}-topology"), faces, "full adjacency on every level; buffers used again", || {
-            mesh.refine_topology_into(levels, &mut full).unwrap();
-        });
-        let mean = refined.positions.iter().map(|p| p.length_squared()).sum::<f64>() / refined.positions.len() as f64;
+        report::measure(
+            &format!("W9-{tag}-topology"),
+            faces,
+            "full adjacency on every level; buffers used again",
+            || {
+                mesh.refine_topology_into(levels, &mut full).unwrap();
+            },
+        );
+        let mean = refined.positions.iter().map(|p| p.length_squared()).sum::<f64>()
+            / refined.positions.len() as f64;
         let (faces, vertices) = (refined.quads.len(), refined.positions.len());
-        report::check(&format!("W9-{tag}"), &format!("\"faces\": {faces}, \"verts\": {vertices}, \"mean_r2\": {mean}"));
+        report::check(
+            &format!("W9-{tag}"),
+            &format!("\"faces\": {faces}, \"verts\": {vertices}, \"mean_r2\": {mean}"),
+        );
     }
 }

@@ -29,5 +29,8 @@ pub(crate) fn measure(workload: &str, items: usize, how: &str, mut work: impl Fn
 
 /// Prints one line of a check, `fields` being JSON members.
 pub(crate) fn check(workload: &str, fields: &str) {
-    println!("{{\"workload\": \"{workload}-check\", \"peer\": \"spline-lab {}\", {fields}}}", env!("CARGO_PKG_VERSION"));
+    println!(
+        "{{\"workload\": \"{workload}-check\", \"peer\": \"spline-lab {}\", {fields}}}",
+        env!("CARGO_PKG_VERSION")
+    );
 }

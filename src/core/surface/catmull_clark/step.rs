@@ -143,7 +143,11 @@ impl PolygonMesh {
     /// # Errors
     ///
     /// `StepLimit` above [`MAX_FACES`] faces.
-    pub fn refine_topology_into(&self, levels: usize, result: &mut Vec<MeshTopology>) -> Result<(), MeshError> {
+    pub fn refine_topology_into(
+        &self,
+        levels: usize,
+        result: &mut Vec<MeshTopology>,
+    ) -> Result<(), MeshError> {
         self.check_size(levels)?;
         result.resize_with(levels, MeshTopology::default);
         for level in 0..levels {
