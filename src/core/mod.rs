@@ -13,9 +13,15 @@
 //! | 6.1 Control polygon | `spline_curve/nurbs`, `spline_curve/editing`, `spline_curve/curvature` |
 //! | 6.3 Refinement | `spline_curve/knot_insertion`, `spline_curve/knot_removal` |
 //! | 6.4 Algorithms | `spline_curve/bezier_form` |
+//! | 7.3 Splines | `tensor/space`, `tensor/tensor_product`, `tensor/marsden`, `tensor/relevance`, `tensor/box_spline` |
+//! | 7.4 Algorithms | `tensor/grid`, `tensor/derivative`, `tensor/refinement`, `tensor/uniform_tableau` |
+//! | 8.2 Spline surfaces | `surface/nurbs_surface`, `surface/grid`, `surface/measure`, `surface/tessellation`, `surface/curvature` |
+//! | 8.3 Subdivision surfaces | `tensor/subdivision`, `surface/polygon_mesh`, `surface/mesh_topology`, `surface/catmull_clark` |
 //! | 9.1 Ritz-Galerkin approximation | `finite_element/{form, ritz_galerkin, error_norm, poisson}` |
 //! | 9.2 Weighted B-splines | `domain/`, `finite_element/{r_function, weight_function, weighted_bspline, web_spline}` |
+//! | 9.3 Isogeometric elements | `finite_element/{geometry, isogeometric, multipatch, fast_diagonalisation}` |
 //! | 9.4 Implementation | `quadrature`, `linear_system/`, `finite_element/{cell_quadrature, offset_matrix, assembly, solver}` |
+//! | 9.5 Applications | `finite_element/flow` |
 //! | beyond | `spline_curve/degree`, `spline_curve/deviation`, `spline_curve/closest_point` |
 //!
 //! # Notation and conventions
