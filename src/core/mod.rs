@@ -10,6 +10,9 @@
 //! | 4.4 Splines | `bspline/space`, `bspline/builders`, `bspline/multiple_end_knots`, `bspline/uniform`, `bspline/piecewise` |
 //! | 4.5 Evaluation and differentiation | `bspline/spline`, `bspline/derivative`, `bspline/integral` |
 //! | 4.6 Periodic splines | `bspline/space`, `bspline/unroll` |
+//! | 5.1 Schoenberg's scheme | `approximation/schoenberg` |
+//! | 5.5 Interpolation | `approximation/sites`, `approximation/collocation`, `approximation/interpolation`, `approximation/cubic_interpolation` |
+//! | 5.6 Smoothing | `approximation/smoothing`, `approximation/smoothing_choice`, `approximation/smoothing_system`, `approximation/least_squares` |
 //! | 6.1 Control polygon | `spline_curve/nurbs`, `spline_curve/editing`, `spline_curve/curvature` |
 //! | 6.3 Refinement | `spline_curve/knot_insertion`, `spline_curve/knot_removal` |
 //! | 6.4 Algorithms | `spline_curve/bezier_form` |
@@ -22,6 +25,8 @@
 //! | 9.3 Isogeometric elements | `finite_element/{geometry, isogeometric, multipatch, fast_diagonalisation}` |
 //! | 9.4 Implementation | `quadrature`, `linear_system/`, `finite_element/{cell_quadrature, offset_matrix, assembly, solver}` |
 //! | 9.5 Applications | `finite_element/flow` |
+//! | typed formulas | `formula` |
+//! | linear systems | `linear_system` |
 //! | beyond | `spline_curve/degree`, `spline_curve/deviation`, `spline_curve/closest_point` |
 //!
 //! # Notation and conventions

@@ -27,7 +27,18 @@ pub fn collocation_matrix(space: &SplineSpace, sites: &[f64]) -> Result<BandMatr
         space.evaluation_dimension(),
     )?;
     check_order(space, sites)?;
-    let (n, m, knots) = (space.degree(), space.dimension(), space.knots());
+    // A constant degree lets the compiler unroll the recurrence.
+    match space.degree() {
+        2 => assemble(2, space, sites),
+        3 => assemble(3, space, sites),
+        5 => assemble(5, space, sites),
+        n => assemble(n, space, sites),
+    }
+}
+
+#[inline(always)]
+fn assemble(n: usize, space: &SplineSpace, sites: &[f64]) -> Result<BandMatrix, ApproximationError> {
+    let (m, knots) = (space.dimension(), space.knots());
     let mut matrix = BandMatrix::with_capacity(sites.len(), m, n + 1);
     let mut values = [0.0; MAX_DEGREE + 1];
     let (mut span, mut copies) = (n, 0);
@@ -51,9 +62,8 @@ pub(super) enum Collocation {
 }
 
 impl Collocation {
-    /// Sites as [`check_sites`] wants them.
+    /// The sites are as [`check_sites`] wants them.
     pub(super) fn new(space: &SplineSpace, sites: &[f64]) -> Result<Self, ApproximationError> {
-        check_sites(space, sites)?;
         if space.is_periodic() {
             return periodic(space, sites);
         }
@@ -104,6 +114,7 @@ fn periodic(space: &SplineSpace, sites: &[f64]) -> Result<Collocation, Approxima
 ///
 /// Those of [`check_sites`], `Singular`.
 pub fn inverse_norm(space: &SplineSpace, sites: &[f64]) -> Result<f64, ApproximationError> {
+    check_sites(space, sites)?;
     let collocation = Collocation::new(space, sites)?;
     let size = sites.len();
     let mut sums = vec![0.0; size];

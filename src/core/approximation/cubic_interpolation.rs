@@ -93,7 +93,7 @@ pub fn cubic_interpolation<P: Point>(
         }
     };
     solve(sites, values, start_row, end_row, &mut moments);
-    spline_from_moments(sites, values, &moments, (first, last))
+    spline_from_moments(sites, values, &moments, (first, last), 0)
 }
 
 /// The natural cubic spline: among all twice differentiable functions through the points it has the least `∫|p″|²`.
@@ -119,11 +119,11 @@ fn not_a_knot<P: Point>(
         (slope(i) - slope(i - 1)) * 6.0
     };
     match last {
-        1 => return spline_from_moments(sites, values, &moments, outer),
+        1 => return spline_from_moments(sites, values, &moments, outer, 0),
         2 => {
             moments.fill(bend(1) * (3.0 * (width(0) + width(1))).recip());
             let (ends, values) = ([sites[0], sites[2]], [values[0], values[2]]);
-            return spline_from_moments(&ends, &values, &moments[..2], outer);
+            return spline_from_moments(&ends, &values, &moments[..2], outer, 0);
         }
         _ => {}
     }
@@ -138,10 +138,7 @@ fn not_a_knot<P: Point>(
     let extrapolate = |near: P, far: P, a: f64, b: f64| near + (near - far) * (a / b);
     moments[0] = extrapolate(moments[1], moments[2], outer.0, width(1));
     moments[last] = extrapolate(moments[last - 1], moments[last - 2], outer.1, width(last - 2));
-    let reduced =
-        [sites[0]].iter().chain(&sites[2..last - 1]).chain(&sites[last..]).copied().collect::<Vec<_>>();
-    let without = |all: &[P]| [&all[..1], &all[2..last - 1], &all[last..]].concat();
-    spline_from_moments(&reduced, &without(values), &without(&moments), outer)
+    spline_from_moments(sites, values, &moments, outer, 1)
 }
 
 /// The data are continued by enough of their copies for the ends not to matter.

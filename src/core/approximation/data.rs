@@ -16,7 +16,7 @@ pub(super) fn check_length(
 pub(super) fn check_finite<P: Point>(what: &'static str, points: &[P]) -> Result<(), ApproximationError> {
     // Without an early exit the loop runs in vector registers; a sum would overflow.
     let fine = points.iter().fold(true, |fine, point| fine & point.is_finite());
-    match points.iter().position(|point| !fine && !point.is_finite()) {
+    match (!fine).then(|| points.iter().position(|point| !point.is_finite())).flatten() {
         Some(index) => {
             let coordinates = (0..P::DIMENSION).map(|i| points[index].coordinate(i));
             let value = coordinates.into_iter().find(|value| !value.is_finite()).unwrap_or(f64::NAN);

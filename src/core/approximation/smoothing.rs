@@ -220,7 +220,7 @@ impl<'a, P: Point> Reinsch<'a, P> {
         moments.extend(fit.unknowns.iter().map(|&u| u * fit.rest));
         moments.push(P::ZERO);
         let outer = (sites[1] - sites[0], sites[last] - sites[last - 1]);
-        let spline = spline_from_moments(sites, &fit.fitted, &moments, outer)?;
+        let spline = spline_from_moments(sites, &fit.fitted, &moments, outer, 0)?;
         // The square of a linear function: h/3 (a² + a b + b²) = h/6 (a² + b² + (a + b)²).
         let roughness = sites
             .windows(2)

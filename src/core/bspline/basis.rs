@@ -102,6 +102,7 @@ impl SplineSpace {
 
     /// Writes the derivatives of order `derivative` of the B-splines `span − n … span` at `x`, those of the pieces over the knot interval `span`, into `n + 1` places; zeros above
     /// the degree. `span` is an index as [`SplineSpace::span`] returns it.
+    #[inline(always)]
     pub(in crate::core) fn write_basis_in_span(
         &self,
         span: usize,
@@ -142,6 +143,7 @@ impl SplineSpace {
 }
 
 /// From the `level` values of degree `level − 1` in `values` to the `level + 1` values of degree `level`.
+#[inline(always)]
 pub(super) fn raise(knots: &[f64], span: usize, level: usize, x: f64, values: &mut [f64]) {
     // No division by zero: every denominator spans the nonempty interval [ξₗ, ξₗ₊₁).
     let mut from_left = 0.0;

@@ -46,7 +46,11 @@ impl<P: Point> Spline<P> {
             let (expected, found) = (space.dimension(), coefficients.len());
             return Err(SplineError::SizeMismatch { what: "coefficients", expected, found });
         }
-        if let Some(index) = coefficients.iter().position(|point| !point.is_finite()) {
+        // Without an early exit the loop runs in vector registers.
+        let fine = coefficients.iter().fold(true, |fine, point| fine & point.is_finite());
+        if let Some(index) =
+            (!fine).then(|| coefficients.iter().position(|point| !point.is_finite())).flatten()
+        {
             let point = coefficients[index];
             let bad = (0..P::DIMENSION).map(|i| point.coordinate(i)).find(|value| !value.is_finite());
             let value = bad.unwrap_or(f64::NAN);

@@ -63,21 +63,28 @@ impl BandCholesky {
 
     /// The entries of the inverse inside the band, in the layout that [`Self::factor`] reads.
     pub fn inverse_band(&self) -> Vec<f64> {
-        let (half, width, size) = (self.half, self.half + 1, self.size());
-        let mut inverse = vec![0.0; self.rows.len()];
-        // Entry (i, j) of the symmetric inverse for j in i − half ..= i + half.
-        let at = |i: usize, j: usize| i.max(j) * width + half - i.abs_diff(j);
-        for i in (0..size).rev() {
-            let below = i + 1..(i + width).min(size);
-            for j in below.clone() {
-                inverse[at(i, j)] =
-                    -below.clone().map(|k| self.rows[at(k, i)] * inverse[at(k, j)]).sum::<f64>();
-            }
-            let sum: f64 = below.map(|k| self.rows[at(k, i)] * inverse[at(i, k)]).sum();
-            inverse[at(i, i)] = self.rows[at(i, i)] - sum;
+        match self.half {
+            2 => inverse_band(2, &self.rows),
+            half => inverse_band(half, &self.rows),
         }
-        inverse
     }
+}
+
+#[inline(always)]
+fn inverse_band(half: usize, rows: &[f64]) -> Vec<f64> {
+    let (width, size) = (half + 1, rows.len() / (half + 1));
+    let mut inverse = vec![0.0; rows.len()];
+    // Entry (i, j) of the symmetric inverse for j in i − half ..= i + half.
+    let at = |i: usize, j: usize| i.max(j) * width + half - i.abs_diff(j);
+    for i in (0..size).rev() {
+        let below = i + 1..(i + width).min(size);
+        for j in below.clone() {
+            inverse[at(i, j)] = -below.clone().map(|k| rows[at(k, i)] * inverse[at(k, j)]).sum::<f64>();
+        }
+        let sum: f64 = below.map(|k| rows[at(k, i)] * inverse[at(i, k)]).sum();
+        inverse[at(i, i)] = rows[at(i, i)] - sum;
+    }
+    inverse
 }
 
 #[inline(always)]

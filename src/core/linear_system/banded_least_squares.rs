@@ -2,11 +2,16 @@
 //!
 //! W. Givens, 1958; for splines C. Reinsch's and P. Dierckx' programs. Course: section 5.6.
 
+use std::ops::Range;
+
 use crate::core::linear_system::band_error::BandError;
 use crate::core::point::Point;
 
 /// A diagonal entry of the triangle counts as zero below this, times the largest entry of its column.
 const TINY_DIAGONAL: f64 = 1e-13;
+
+/// Sums of squares that have lost nothing to underflow or overflow.
+const SQUARES: Range<f64> = 1e-250..1e300;
 
 /// The triangle `R` of `A = Q R`, and `Qᵗ` times the right-hand side, of the rows taken in so far.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,7 +63,9 @@ impl<P: Point> BandLeastSquares<P> {
                     self.right[k] = value;
                     return Ok(());
                 }
-                let length = a.hypot(b);
+                let square = a * a + b * b;
+                // `hypot` is slow, and needed only where squares leave the range of numbers.
+                let length = if SQUARES.contains(&square) { square.sqrt() } else { a.hypot(b) };
                 let (c, s) = (a / length, b / length);
                 upper[0] = length;
                 for (above, entry) in upper[1..].iter_mut().zip(row[1..].iter_mut()) {
