@@ -99,6 +99,9 @@ pub enum FiniteElementError {
     /// Without essential conditions and reaction the solution is unique up to a constant only.
     #[error("the system has a constant in its kernel; fix the mean value")]
     SingularSystem,
+    /// Isogeometric elements take no load against gradients.
+    #[error("isogeometric elements take no load F·grad v; F must be the constant 0")]
+    GradientLoad,
     /// An elastic body that is not held.
     #[error("the body is not fixed; {dimension} rigid motions remain")]
     UnconstrainedBody {
@@ -209,6 +212,7 @@ impl FiniteElementError {
             Self::NotElliptic { .. } => "NotElliptic",
             Self::IncompatibleData { .. } => "IncompatibleData",
             Self::SingularSystem => "SingularSystem",
+            Self::GradientLoad => "GradientLoad",
             Self::UnconstrainedBody { .. } => "UnconstrainedBody",
             Self::SingularJacobian { .. } => "SingularJacobian",
             Self::NegativeOrientation { .. } => "NegativeOrientation",

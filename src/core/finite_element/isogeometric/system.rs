@@ -8,7 +8,7 @@ use glam::DVec2;
 
 use crate::core::finite_element::error::FiniteElementError;
 use crate::core::finite_element::fast_diagonalisation::{DirectionMatrices, FastDiagonalisation};
-use crate::core::finite_element::form::EllipticForm;
+use crate::core::finite_element::form::{Coefficient, EllipticForm};
 use crate::core::finite_element::geometry::{PatchSide, active};
 use crate::core::finite_element::isogeometric::assembly::{Samples, assemble};
 use crate::core::finite_element::isogeometric::band_matrix::TensorBandMatrix;
@@ -87,13 +87,17 @@ impl IsogeometricSystem {
     ///
     /// # Errors
     ///
-    /// `NonFinite` and `NotElliptic` name a point where the data are bad; `Stopped`.
+    /// `NonFinite` and `NotElliptic` name a point where the data are bad; `GradientLoad` unless `F` is the constant 0 (give
+    /// the right side with [`Self::with_right_side`] instead); `Stopped`.
     pub fn assemble(
         space: IsogeometricSpace,
         form: &EllipticForm<'_>,
         fluxes: &[SideFlux<'_>],
         watcher: &dyn Watcher,
     ) -> Result<Self, FiniteElementError> {
+        if !matches!(form.gradient_load, Coefficient::Constant(load) if load == DVec2::ZERO) {
+            return Err(FiniteElementError::GradientLoad);
+        }
         let directions = space.directions()?;
         let integrand = Integrand { patch: space.patch(), directions: &directions, form };
         let sums = assemble(integrand, space.sizes(), space.sign(), watcher)?;
@@ -320,7 +324,6 @@ mod tests {
 
     use super::*;
     use crate::core::bspline::SplineSpace;
-    use crate::core::finite_element::form::Coefficient;
     use crate::core::finite_element::geometry::PlanePatch;
     use crate::core::finite_element::sample_geometries as sample;
     use crate::core::progress::Unwatched;
@@ -358,6 +361,7 @@ mod tests {
             diffusion: Coefficient::Function(&diffusion),
             reaction: Coefficient::Function(&reaction),
             load: Coefficient::Function(&load),
+            gradient_load: Coefficient::Constant(DVec2::ZERO),
         };
         let system = IsogeometricSystem::assemble(space.clone(), &form, &[], &Unwatched).unwrap();
         let [m1, m2] = space.sizes();
