@@ -98,7 +98,7 @@ fn eliminate(
             }
         }
         let pivot = row[i - start];
-        if !(pivot.abs() > tiny) {
+        if pivot.abs() <= tiny || pivot.is_nan() {
             return Err(BandError::Singular { index: i, pivot });
         }
         reciprocals.push(1.0 / pivot);
@@ -152,7 +152,7 @@ impl PivotedBandLu {
                 }
             }
             let pivot = entries[at(best, k)];
-            if !(pivot.abs() > tiny) {
+            if pivot.abs() <= tiny || pivot.is_nan() {
                 return Err(BandError::Singular { index: k, pivot });
             }
             exchanges.push(best);
