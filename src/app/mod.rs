@@ -33,6 +33,7 @@ mod shortcut_sheet;
 mod smoke_log;
 mod status_bar;
 mod stepper_panel;
+mod surfaces;
 #[cfg(test)]
 mod test_bench;
 mod text_field;

@@ -247,7 +247,8 @@ mod tests {
             for level in 0..3 {
                 let mesh = MeshObject::from_cage(cage.clone(), MeshDisplay::default()).unwrap();
                 let mesh = mesh.with_level(level).unwrap();
-                let found = mesh.steps().unwrap().last().map_or(mesh.cage().counts()[2], |s| s.mesh.counts()[2]);
+                let found =
+                    mesh.steps().unwrap().last().map_or(mesh.cage().counts()[2], |s| s.mesh.counts()[2]);
                 assert_eq!(found as usize, mesh.refined_face_count(), "level {level}");
             }
         }
@@ -265,8 +266,13 @@ mod tests {
 
     #[test]
     fn discarding_the_boundary_needs_an_inner_vertex() {
-        let one = MeshObject::from_cage(mesh_shapes::open_sheet(1, 1).unwrap(), MeshDisplay::default()).unwrap();
-        assert_eq!(one.with_rule(BoundaryRule::Discard).unwrap_err().name(), "EmptyResult", "a single square");
+        let one =
+            MeshObject::from_cage(mesh_shapes::open_sheet(1, 1).unwrap(), MeshDisplay::default()).unwrap();
+        assert_eq!(
+            one.with_rule(BoundaryRule::Discard).unwrap_err().name(),
+            "EmptyResult",
+            "a single square"
+        );
         assert!(cube().with_rule(BoundaryRule::Discard).is_ok(), "a closed mesh has no boundary");
     }
 

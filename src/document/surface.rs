@@ -216,7 +216,8 @@ impl SurfaceObject {
     ///
     /// `TooMany`.
     pub fn refined(&self, axis: usize) -> Result<Self, EditError> {
-        let breaks = self.surface.space().axis(axis).map_err(crate::core::surface::SurfaceError::from)?.breaks();
+        let breaks =
+            self.surface.space().axis(axis).map_err(crate::core::surface::SurfaceError::from)?.breaks();
         check_point_count(2 * self.surface.points().len())?;
         let middles: Vec<f64> = breaks.windows(2).map(|pair| 0.5 * pair[0] + 0.5 * pair[1]).collect();
         self.with_surface(self.surface.insert_knots(axis, &middles)?)
@@ -263,11 +264,9 @@ mod tests {
     #[test]
     fn inserting_knots_and_raising_degrees_keep_the_surface() {
         let before = torus();
-        for after in [
-            before.with_knot(0, 0.3).unwrap(),
-            before.refined(1).unwrap(),
-            before.elevated(1).unwrap(),
-        ] {
+        for after in
+            [before.with_knot(0, 0.3).unwrap(), before.refined(1).unwrap(), before.elevated(1).unwrap()]
+        {
             assert!(after.surface().points().len() > before.surface().points().len(), "more control points");
             for at in [[0.1, 0.2], [1.7, 3.9], [2.5, 0.0]] {
                 let (a, b) = (before.surface().evaluate(at).unwrap(), after.surface().evaluate(at).unwrap());

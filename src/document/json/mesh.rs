@@ -49,10 +49,8 @@ enum BoundaryName {
 pub(super) fn node(object: &MeshObject) -> Node {
     let cage = object.cage();
     let faces = cage.topology().faces().map(|face| Node::from(json!(face))).collect();
-    let mut entries = vec![
-        ("vertices".to_owned(), points_node(cage.positions())),
-        ("faces".to_owned(), Node::List(faces)),
-    ];
+    let mut entries =
+        vec![("vertices".to_owned(), points_node(cage.positions())), ("faces".to_owned(), Node::List(faces))];
     if !cage.creases().is_empty() {
         let sharp = cage.creases().iter().map(|crease| {
             let [a, b] = cage.topology().edge(crease.edge as usize);
@@ -82,7 +80,8 @@ impl MeshRecord {
             FileError::value(format!("{place}{field}"), error.to_string())
         };
         let positions = self.vertices.into_iter().map(DVec3::from_array).collect();
-        let mut cage = PolygonMesh::new(positions, &self.faces).map_err(|error| at(field_of(&error), &error))?;
+        let mut cage =
+            PolygonMesh::new(positions, &self.faces).map_err(|error| at(field_of(&error), &error))?;
         for (index, &(a, b, sharpness)) in self.sharp.iter().enumerate() {
             cage = cage
                 .with_sharpness([a, b], sharpness)
@@ -97,7 +96,9 @@ impl MeshRecord {
             BoundaryName::Discard => BoundaryRule::Discard,
         };
         let field = |error: &EditError| match error {
-            EditError::BadDisplay { field: "level", .. } | EditError::TooMany { what: "faces", .. } => ".level",
+            EditError::BadDisplay { field: "level", .. } | EditError::TooMany { what: "faces", .. } => {
+                ".level"
+            }
             EditError::BadDisplay { .. } => ".display",
             EditError::Mesh(MeshError::EmptyResult) => ".boundary",
             _ => "",

@@ -43,11 +43,8 @@ struct DirectionRecord {
 pub(super) fn node(object: &SurfaceObject) -> Node {
     let surface = object.surface();
     let [u, v] = surface.space().axes().each_ref().map(direction_node);
-    let mut entries = vec![
-        ("u".to_owned(), u),
-        ("v".to_owned(), v),
-        ("points".to_owned(), points_node(surface.points())),
-    ];
+    let mut entries =
+        vec![("u".to_owned(), u), ("v".to_owned(), v), ("points".to_owned(), points_node(surface.points()))];
     if surface.weights().iter().any(|weight| weight.to_bits() != 1.0_f64.to_bits()) {
         entries.push(entry("weights", json!(surface.weights())));
     }

@@ -27,7 +27,8 @@ pub(super) fn colors(
 
 /// The size that most values stay below; 1 if all are zero.
 fn typical_size(values: &[f64]) -> f64 {
-    let mut sizes: Vec<f64> = values.iter().map(|value| value.abs()).filter(|size| size.is_finite()).collect();
+    let mut sizes: Vec<f64> =
+        values.iter().map(|value| value.abs()).filter(|size| size.is_finite()).collect();
     if sizes.is_empty() {
         return 1.0;
     }

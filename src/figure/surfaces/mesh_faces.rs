@@ -175,13 +175,19 @@ mod tests {
         let corners = smooth_corners(&cube, cube.positions());
         assert_eq!(corners.vertices.len(), 12, "four vertices have two corners");
         let top = corners.triangles.iter().filter(|triangle| {
-            triangle.iter().all(|&corner| cube.positions()[corners.vertices[corner as usize] as usize].z > 0.0)
+            triangle
+                .iter()
+                .all(|&corner| cube.positions()[corners.vertices[corner as usize] as usize].z > 0.0)
         });
         for corner in top.flatten() {
             let normal = corners.normals[*corner as usize].normalize();
             assert!((normal - DVec3::Z).length() < 1e-15, "{normal} on the top");
         }
-        assert_eq!(smooth_corners(&mesh_shapes::cube(), cube.positions()).vertices.len(), 8, "without creases");
+        assert_eq!(
+            smooth_corners(&mesh_shapes::cube(), cube.positions()).vertices.len(),
+            8,
+            "without creases"
+        );
     }
 
     #[test]

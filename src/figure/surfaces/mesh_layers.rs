@@ -180,7 +180,11 @@ mod tests {
         let mesh = MeshObject::from_cage(mesh_shapes::cube(), display).unwrap().with_level(level).unwrap();
         let shape = shape("Cube", &mesh, &Theme::light());
         let layer = shape.layers.iter().find(|layer| layer.name.ends_with("valences")).unwrap();
-        layer.items.iter().map(|item| if let SceneItem::Points(p) = item { p.points().len() } else { 0 }).collect()
+        layer
+            .items
+            .iter()
+            .map(|item| if let SceneItem::Points(p) = item { p.points().len() } else { 0 })
+            .collect()
     }
 
     #[test]

@@ -153,10 +153,12 @@ mod tests {
 
     fn document(coloring: SurfaceColoring) -> Document {
         let mut document = Document::new();
-        let display = SurfaceDisplay { coloring, density: 6, isolines: 1, normals: true, ..Default::default() };
+        let display =
+            SurfaceDisplay { coloring, density: 6, isolines: 1, normals: true, ..Default::default() };
         let surface = SurfaceObject::new(samples::torus().into(), display).unwrap();
         let display = MeshDisplay { coloring, limit: true, valences: true, ..Default::default() };
-        let mesh = MeshObject::from_cage(mesh_shapes::creased_cube(), display).unwrap().with_level(2).unwrap();
+        let mesh =
+            MeshObject::from_cage(mesh_shapes::creased_cube(), display).unwrap().with_level(2).unwrap();
         for (name, content) in [("Torus", Content::Surface(surface)), ("Cube", Content::Mesh(mesh))] {
             document.apply(&Edit::AddObject { name: name.to_owned(), content }).unwrap();
         }

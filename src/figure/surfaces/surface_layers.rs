@@ -60,10 +60,7 @@ pub(super) fn shape(name: &str, object: &SurfaceObject, theme: &Theme) -> Shape 
     shape
 }
 
-fn triangles(
-    object: &SurfaceObject,
-    theme: &Theme,
-) -> Result<(Triangles, Option<super::Legend>), Fault> {
+fn triangles(object: &SurfaceObject, theme: &Theme) -> Result<(Triangles, Option<super::Legend>), Fault> {
     let (surface, display) = (object.surface(), object.display());
     let grid = surface.tessellate([display.density; 2])?;
     let color = theme.basis_color(display.color);
@@ -108,10 +105,9 @@ fn isolines(object: &SurfaceObject, values: [Vec<f64>; 2], stroke: &Stroke) -> R
         for &value in values {
             let curve = surface.iso_curve(axis, value)?;
             let points: Result<Vec<DVec3>, _> = breaks.iter().map(|&t| curve.evaluate(t)).collect();
-            let points = points.map_err(|error| SurfaceError::from(crate::core::tensor::TensorError::Axis {
-                axis: 1 - axis,
-                source: error,
-            }))?;
+            let points = points.map_err(|error| {
+                SurfaceError::from(crate::core::tensor::TensorError::Axis { axis: 1 - axis, source: error })
+            })?;
             items.push(SceneItem::Line(Line::new(points, stroke.clone())?));
         }
     }
@@ -159,7 +155,8 @@ fn net(surface: &NurbsSurface, theme: &Theme) -> Result<Vec<SceneItem>, FigureEr
 
 /// Control points as they are shown everywhere.
 pub(super) fn handles(points: Vec<DVec3>, theme: &Theme) -> Result<Points, FigureError> {
-    let mut points = Points::new(points, MarkerShape::Disc, 7.0 * theme.stroke_scale.sqrt(), theme.background)?;
+    let mut points =
+        Points::new(points, MarkerShape::Disc, 7.0 * theme.stroke_scale.sqrt(), theme.background)?;
     points.outline = Some(theme.stroke(theme.polygon, 1.6));
     Ok(points)
 }
