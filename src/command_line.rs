@@ -12,6 +12,7 @@ use crate::document::{self, Document};
 use crate::exchange::by_ending::{self, FigureFormat, figure, read_document};
 use crate::figure::composition::compose;
 use crate::figure::picture::Viewport;
+use crate::figure::surfaces;
 use crate::figure::theme::Theme;
 
 /// Points (1/72 inch) in a millimetre.
@@ -147,7 +148,13 @@ fn write_figure(
     let format = FigureFormat::of(output).map_err(|error| error.to_string())?;
     let saved = read_document(file).map_err(|error| error.to_string())?;
     let viewport = page(&saved.document, width, height)?;
-    let picture = compose(&saved.document, &saved.view, theme, &viewport);
+    let (picture, viewport) = if surfaces::is_shown(&saved.view) {
+        // The box of curves says nothing about the height of a view of space.
+        let size = DVec2::new(viewport.size.x, height.map_or(0.75 * viewport.size.x, |_| viewport.size.y));
+        surfaces::compose(&saved.document, &saved.view, theme, size).map_err(|error| error.to_string())?
+    } else {
+        (compose(&saved.document, &saved.view, theme, &viewport), viewport)
+    };
     let bytes = figure(format, &picture, &viewport, &saved.document, &saved.view, scale);
     let bytes = bytes.map_err(|error| error.to_string())?;
     by_ending::write_file(output, &bytes).map_err(|error| error.to_string())

@@ -17,6 +17,10 @@ pub enum Command {
     SaveAs,
     /// Writes a figure of the canvas.
     ExportFigure,
+    /// Adds the mesh of an OBJ file.
+    ImportMesh,
+    /// Writes the selected mesh at the level shown.
+    ExportMesh,
     /// Shows the first scene again.
     FirstScene,
     /// Closes the lab.
@@ -53,6 +57,38 @@ pub enum Command {
     Reverse,
     /// All weights 1.
     ResetWeights,
+    /// One subdivision step more.
+    LevelUp,
+    /// One subdivision step fewer.
+    LevelDown,
+    /// Control net or mesh on or off.
+    ToggleNet,
+    /// Knot lines or wireframe on or off.
+    ToggleLines,
+    /// Normals on or off.
+    ToggleNormals,
+    /// Smooth or flat faces.
+    ToggleSmooth,
+    /// Limit points on or off.
+    ToggleLimits,
+    /// Valence marks on or off.
+    ToggleValences,
+    /// The next colouring.
+    CycleColoring,
+    /// More knots in u.
+    RefineU,
+    /// More knots in v.
+    RefineV,
+    /// Raises the degree in u.
+    ElevateU,
+    /// Raises the degree in v.
+    ElevateV,
+    /// Reverses u.
+    ReverseU,
+    /// Reverses v.
+    ReverseV,
+    /// Perspective or parallel projection.
+    ToggleParallel,
     /// Fits everything into the canvas.
     Fit,
     /// Larger.
@@ -110,6 +146,8 @@ pub enum Menu {
     Edit,
     /// The selected curve.
     Curve,
+    /// The selected surface or mesh.
+    Surface,
     /// What is shown.
     View,
     /// Lessons and the stepper.
@@ -120,12 +158,14 @@ pub enum Menu {
 
 impl Menu {
     /// All menus.
-    pub const ALL: [Self; 6] = [Self::File, Self::Edit, Self::Curve, Self::View, Self::Lesson, Self::Help];
+    pub const ALL: [Self; 7] =
+        [Self::File, Self::Edit, Self::Curve, Self::Surface, Self::View, Self::Lesson, Self::Help];
 
     /// The only room where the menu is shown; `None` if it is everywhere.
     pub fn room(self) -> Option<Room> {
         match self {
             Self::Curve => Some(Room::Curves),
+            Self::Surface => Some(Room::Surfaces),
             _ => None,
         }
     }
@@ -136,6 +176,7 @@ impl Menu {
             Self::File => "File",
             Self::Edit => "Edit",
             Self::Curve => "Curve",
+            Self::Surface => "Surface",
             Self::View => "View",
             Self::Lesson => "Lesson",
             Self::Help => "Help",
@@ -149,12 +190,14 @@ const COMMAND_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND }
 
 impl Command {
     /// All commands, in the order of menus, palette and sheet.
-    pub const ALL: [Self; 46] = [
+    pub const ALL: [Self; 64] = [
         Self::New,
         Self::Open,
         Self::Save,
         Self::SaveAs,
         Self::ExportFigure,
+        Self::ImportMesh,
+        Self::ExportMesh,
         Self::FirstScene,
         Self::Quit,
         Self::Undo,
@@ -173,6 +216,22 @@ impl Command {
         Self::ToggleClosed,
         Self::Reverse,
         Self::ResetWeights,
+        Self::LevelUp,
+        Self::LevelDown,
+        Self::ToggleNet,
+        Self::ToggleLines,
+        Self::ToggleNormals,
+        Self::ToggleSmooth,
+        Self::ToggleLimits,
+        Self::ToggleValences,
+        Self::CycleColoring,
+        Self::RefineU,
+        Self::RefineV,
+        Self::ElevateU,
+        Self::ElevateV,
+        Self::ReverseU,
+        Self::ReverseV,
+        Self::ToggleParallel,
         Self::Fit,
         Self::ZoomIn,
         Self::ZoomOut,
@@ -230,6 +289,32 @@ impl Command {
             Self::ToggleClosed => ("Close or open", "Close an open curve, open a closed one"),
             Self::Reverse => ("Reverse direction", "Run through the curve the other way"),
             Self::ResetWeights => ("All weights 1", "Make the curve polynomial"),
+            Self::ImportMesh => ("Import mesh…", "Add the mesh of an OBJ file to the document"),
+            Self::ExportMesh => ("Export mesh…", "Write the selected mesh as OBJ, refined as it is shown"),
+            Self::LevelUp => ("Refine", "One step of subdivision more"),
+            Self::LevelDown => ("Coarsen", "One step of subdivision fewer"),
+            Self::ToggleNet => ("Control net", "Show or hide the control net or mesh"),
+            Self::ToggleLines => {
+                ("Lines", "Show or hide the knot lines of a surface, the wireframe of a mesh")
+            }
+            Self::ToggleNormals => ("Normals", "Show or hide normals of a surface"),
+            Self::ToggleSmooth => ("Smooth light", "Light as on the smooth surface, or flat faces"),
+            Self::ToggleLimits => ("Limit points", "Show a mesh where its vertices tend to"),
+            Self::ToggleValences => ("Valences", "Mark inner vertices that have not four faces"),
+            Self::CycleColoring => {
+                ("Curvature colours", "None, Gaussian, mean, smaller and larger principal curvature in turn")
+            }
+            Self::RefineU => {
+                ("Refine u", "A knot more in the middle of every interval of u; the surface is kept")
+            }
+            Self::RefineV => {
+                ("Refine v", "A knot more in the middle of every interval of v; the surface is kept")
+            }
+            Self::ElevateU => ("Raise degree in u", "One degree more in u; the surface is kept"),
+            Self::ElevateV => ("Raise degree in v", "One degree more in v; the surface is kept"),
+            Self::ReverseU => ("Reverse u", "Run through u the other way; normals turn to the other side"),
+            Self::ReverseV => ("Reverse v", "Run through v the other way; normals turn to the other side"),
+            Self::ToggleParallel => ("Perspective", "Perspective or parallel projection"),
             Self::Fit => ("Fit", "Show everything"),
             Self::ZoomIn => ("Zoom in", "Larger"),
             Self::ZoomOut => ("Zoom out", "Smaller"),
@@ -279,6 +364,16 @@ impl Command {
             Self::ElevateDegree => (NONE, Key::E),
             Self::ReduceDegree => (Modifiers::SHIFT, Key::E),
             Self::ToggleClosed => (NONE, Key::C),
+            Self::LevelUp => (NONE, Key::CloseBracket),
+            Self::LevelDown => (NONE, Key::OpenBracket),
+            Self::ToggleNet => (NONE, Key::P),
+            Self::ToggleLines => (NONE, Key::W),
+            Self::ToggleNormals => (NONE, Key::N),
+            Self::ToggleSmooth => (NONE, Key::S),
+            Self::ToggleLimits => (NONE, Key::L),
+            Self::ToggleValences => (NONE, Key::B),
+            Self::CycleColoring => (NONE, Key::U),
+            Self::ToggleParallel => (NONE, Key::O),
             Self::Fit => (NONE, Key::F),
             Self::ZoomIn => (COMMAND, Key::Plus),
             Self::ZoomOut => (COMMAND, Key::Minus),
@@ -303,6 +398,14 @@ impl Command {
             Self::Palette => (COMMAND, Key::P),
             Self::ShortcutSheet => (NONE, Key::F1),
             Self::FirstScene | Self::Reverse | Self::ResetWeights => return None,
+            Self::ImportMesh
+            | Self::ExportMesh
+            | Self::RefineU
+            | Self::RefineV
+            | Self::ElevateU
+            | Self::ElevateV
+            | Self::ReverseU
+            | Self::ReverseV => return None,
         };
         Some(KeyboardShortcut::new(modifiers, key))
     }
@@ -310,7 +413,8 @@ impl Command {
     /// The only room where the command means something; `None` if it does everywhere.
     pub fn room(self) -> Option<Room> {
         match self {
-            Self::TogglePolygon
+            Self::ToggleGrid
+            | Self::TogglePolygon
             | Self::ToggleComb
             | Self::ToggleConstruction
             | Self::CycleLabels
@@ -320,6 +424,7 @@ impl Command {
             | Self::StepperPlay
             | Self::StepForward
             | Self::StepBack => Some(Room::Curves),
+            Self::ExportMesh => Some(Room::Surfaces),
             _ => self.menu().room(),
         }
     }
@@ -332,6 +437,8 @@ impl Command {
             | Self::Save
             | Self::SaveAs
             | Self::ExportFigure
+            | Self::ImportMesh
+            | Self::ExportMesh
             | Self::FirstScene
             | Self::Quit => Menu::File,
             Self::Undo | Self::Redo | Self::Delete | Self::Duplicate | Self::SelectAll | Self::Escape => {
@@ -347,6 +454,22 @@ impl Command {
             | Self::ToggleClosed
             | Self::Reverse
             | Self::ResetWeights => Menu::Curve,
+            Self::LevelUp
+            | Self::LevelDown
+            | Self::ToggleNet
+            | Self::ToggleLines
+            | Self::ToggleNormals
+            | Self::ToggleSmooth
+            | Self::ToggleLimits
+            | Self::ToggleValences
+            | Self::CycleColoring
+            | Self::RefineU
+            | Self::RefineV
+            | Self::ElevateU
+            | Self::ElevateV
+            | Self::ReverseU
+            | Self::ReverseV
+            | Self::ToggleParallel => Menu::Surface,
             Self::StepperPlay
             | Self::StepForward
             | Self::StepBack

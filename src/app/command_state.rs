@@ -4,6 +4,8 @@ use eframe::egui::Context;
 
 use crate::app::command::Command;
 use crate::app::lab::{Lab, Tool};
+use crate::app::surfaces::commands as surfaces;
+use crate::app::workspace::Room;
 use crate::app::{KNOT_LINE, LEFT_PANEL, RIGHT_PANEL};
 use crate::document::CurveDisplay;
 use crate::figure::composition::GRID;
@@ -32,6 +34,9 @@ pub(crate) fn key_text(command: Command, ctx: &Context) -> Option<String> {
 pub(crate) fn is_possible(command: Command, lab: &Lab) -> bool {
     if command.room().is_some_and(|room| room != lab.room()) {
         return false;
+    }
+    if lab.room() == Room::Surfaces && (command.room().is_some() || command == Command::SelectAll) {
+        return surfaces::is_possible(command, lab);
     }
     match command {
         Command::Undo => lab.history.undo_name().is_some(),
@@ -83,6 +88,6 @@ pub(crate) fn is_on(command: Command, lab: &Lab) -> Option<bool> {
         Command::LookDark => lab.theme.name == "dark",
         Command::LookPresentation => lab.theme.name == "presentation",
         Command::ToggleClosed => lab.curve().is_some_and(|curve| curve.space().is_periodic()),
-        _ => return None,
+        _ => return surfaces::is_on(command, lab),
     })
 }

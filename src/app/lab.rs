@@ -297,7 +297,8 @@ impl Lab {
             let at_home = document.objects().iter().rfind(|object| Room::of(&object.content) == room);
             self.selection.object = at_home.map(|object| object.id);
         }
-        let count = self.curve().map_or(0, |curve| curve.points().len());
+        let object = self.selection.object.and_then(|id| document.object(id));
+        let count = object.map_or(0, |object| object.content.point_count());
         self.selection.points.retain(|&point| point < count);
         if let Some(knot) = self.selection.knot
             && self.curve().is_none_or(|curve| curve.space().multiplicity(knot) == 0)

@@ -27,10 +27,13 @@ mod painter;
 mod palette;
 mod path_dialog;
 mod preferences;
+#[allow(dead_code, unused_imports, reason = "the rooms of space use it")]
+mod scene_view;
 mod shortcut_sheet;
 mod smoke_log;
 mod status_bar;
 mod stepper_panel;
+mod surfaces;
 #[cfg(test)]
 mod test_bench;
 mod text_field;

@@ -26,7 +26,13 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
     ui.horizontal(|ui| {
         ui.heading("Objects");
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            if ui.add(Button::new("New curve").small()).on_hover_text(Command::DrawTool.text().1).clicked() {
+            let in_curves = lab.room() == crate::app::workspace::Room::Curves;
+            if in_curves
+                && ui
+                    .add(Button::new("New curve").small())
+                    .on_hover_text(Command::DrawTool.text().1)
+                    .clicked()
+            {
                 lab.commands.push(Command::DrawTool);
             }
         });

@@ -7,6 +7,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::core::spline_curve::Nurbs;
 use crate::document::display::CurveDisplay;
+use crate::document::mesh::MeshObject;
+use crate::document::surface::SurfaceObject;
 
 /// The number of an object: stable as long as the document lives, never given twice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -42,6 +44,10 @@ pub enum Content {
         /// How it is drawn.
         display: CurveDisplay,
     },
+    /// A spline or NURBS surface.
+    Surface(SurfaceObject),
+    /// A polygon mesh that is subdivided.
+    Mesh(MeshObject),
 }
 
 impl Content {
@@ -49,6 +55,8 @@ impl Content {
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Curve { .. } => "curve",
+            Self::Surface(_) => "surface",
+            Self::Mesh(_) => "mesh",
         }
     }
 
@@ -62,6 +70,16 @@ impl Content {
                 curve.degree(),
                 curve.points().len()
             ),
+            Self::Surface(object) => {
+                let surface = object.surface();
+                let ([m, n], [rows, columns]) = (surface.space().degrees(), surface.shape());
+                let rational = if surface.is_polynomial() { "" } else { "rational " };
+                format!("{rational}surface of degree ({m}, {n}), {rows} × {columns} control points")
+            }
+            Self::Mesh(object) => {
+                let [v, e, f, _] = object.cage().counts();
+                format!("mesh with {v} vertices, {e} edges, {f} faces, level {}", object.level())
+            }
         }
     }
 
@@ -69,6 +87,17 @@ impl Content {
     pub fn color(&self) -> usize {
         match self {
             Self::Curve { display, .. } => display.color,
+            Self::Surface(object) => object.display().color,
+            Self::Mesh(object) => object.display().color,
+        }
+    }
+
+    /// Number of its control points or vertices.
+    pub fn point_count(&self) -> usize {
+        match self {
+            Self::Curve { curve, .. } => curve.points().len(),
+            Self::Surface(object) => object.surface().points().len(),
+            Self::Mesh(object) => object.cage().positions().len(),
         }
     }
 
@@ -81,6 +110,12 @@ impl Content {
                     2 * (space.knots().len() + space.evaluation_knots().len()) + 6 * curve.points().len();
                 numbers * size_of::<f64>()
             }
+            // Point, weight and their product.
+            Self::Surface(object) => 8 * object.surface().points().len() * size_of::<f64>(),
+            Self::Mesh(object) => {
+                let [v, e, f, _] = object.cage().counts().map(|count| usize::try_from(count).unwrap_or(0));
+                24 * (v + e) + 32 * f
+            }
         }
     }
 }
@@ -90,6 +125,23 @@ impl Object {
     pub fn curve(&self) -> Option<&Nurbs<DVec2>> {
         match &self.content {
             Content::Curve { curve, .. } => Some(curve),
+            _ => None,
+        }
+    }
+
+    /// The surface, if the object is one.
+    pub fn surface(&self) -> Option<&SurfaceObject> {
+        match &self.content {
+            Content::Surface(surface) => Some(surface),
+            _ => None,
+        }
+    }
+
+    /// The mesh, if the object is one.
+    pub fn mesh(&self) -> Option<&MeshObject> {
+        match &self.content {
+            Content::Mesh(mesh) => Some(mesh),
+            _ => None,
         }
     }
 
@@ -97,6 +149,7 @@ impl Object {
     pub fn curve_display(&self) -> Option<&CurveDisplay> {
         match &self.content {
             Content::Curve { display, .. } => Some(display),
+            _ => None,
         }
     }
 

@@ -16,5 +16,6 @@ pub mod mesh;
 pub mod picture;
 pub mod raster;
 pub mod scene;
+pub mod surfaces;
 pub mod theme;
 pub mod ticks;

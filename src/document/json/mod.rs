@@ -12,6 +12,8 @@
 //! data that this program does not understand would be lost with the next save.
 
 mod curve;
+mod mesh;
+mod surface;
 mod writer;
 
 use std::collections::BTreeSet;
@@ -25,6 +27,8 @@ use crate::document::contents::Document;
 use crate::document::eye::EyeError;
 use crate::document::file_error::FileError;
 use crate::document::json::curve::CurveRecord;
+use crate::document::json::mesh::MeshRecord;
+use crate::document::json::surface::SurfaceRecord;
 use crate::document::json::writer::Node;
 use crate::document::object::{Content, Object, ObjectId};
 use crate::document::storage::check_size;
@@ -66,6 +70,10 @@ struct ObjectRecord {
     visible: bool,
     #[serde(default)]
     curve: Option<CurveRecord>,
+    #[serde(default)]
+    surface: Option<SurfaceRecord>,
+    #[serde(default)]
+    mesh: Option<MeshRecord>,
 }
 
 /// The text of a file.
@@ -113,6 +121,8 @@ fn entry(key: &str, value: Value) -> (String, Node) {
 fn object_node(object: &Object) -> Node {
     let content = match &object.content {
         Content::Curve { curve, display } => curve::node(curve, display),
+        Content::Surface(surface) => surface::node(surface),
+        Content::Mesh(mesh) => mesh::node(mesh),
     };
     Node::Record(vec![
         entry("id", json!(object.id)),
@@ -192,10 +202,14 @@ fn document_of(records: Vec<ObjectRecord>, next_id: u64) -> Result<Document, Fil
 
 fn object_of(record: ObjectRecord, place: &str) -> Result<Object, FileError> {
     check_name(&record.name).map_err(|error| FileError::value(format!("{place}.name"), error))?;
-    let kinds = [record.curve.map(|curve| curve.content(&format!("{place}.curve")))];
+    let kinds = [
+        record.curve.map(|curve| curve.content(&format!("{place}.curve"))),
+        record.surface.map(|surface| surface.content(&format!("{place}.surface"))),
+        record.mesh.map(|mesh| mesh.content(&format!("{place}.mesh"))),
+    ];
     let mut found = kinds.into_iter().flatten();
     let (Some(content), None) = (found.next(), found.next()) else {
-        return Err(FileError::value(place, "an object needs exactly one of the kinds curve"));
+        return Err(FileError::value(place, "an object needs exactly one of the kinds curve, surface, mesh"));
     };
     Ok(Object { id: ObjectId(record.id), name: record.name, visible: record.visible, content: content? })
 }
