@@ -6,6 +6,7 @@ use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
 use crate::core::spline_curve::Nurbs;
+use crate::document::approximation::Approximation;
 use crate::document::display::CurveDisplay;
 
 /// The number of an object: stable as long as the document lives, never given twice.
@@ -42,6 +43,8 @@ pub enum Content {
         /// How it is drawn.
         display: CurveDisplay,
     },
+    /// Data, a function, and methods that approximate them.
+    Approximation(Approximation),
 }
 
 impl Content {
@@ -49,6 +52,7 @@ impl Content {
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Curve { .. } => "curve",
+            Self::Approximation(_) => "approximation",
         }
     }
 
@@ -62,6 +66,7 @@ impl Content {
                 curve.degree(),
                 curve.points().len()
             ),
+            Self::Approximation(approximation) => approximation.summary(),
         }
     }
 
@@ -69,6 +74,9 @@ impl Content {
     pub fn color(&self) -> usize {
         match self {
             Self::Curve { display, .. } => display.color,
+            Self::Approximation(approximation) => {
+                approximation.methods().first().map_or(0, |method| method.color)
+            }
         }
     }
 
@@ -81,6 +89,7 @@ impl Content {
                     2 * (space.knots().len() + space.evaluation_knots().len()) + 6 * curve.points().len();
                 numbers * size_of::<f64>()
             }
+            Self::Approximation(approximation) => approximation.byte_size(),
         }
     }
 }
@@ -90,6 +99,7 @@ impl Object {
     pub fn curve(&self) -> Option<&Nurbs<DVec2>> {
         match &self.content {
             Content::Curve { curve, .. } => Some(curve),
+            Content::Approximation(_) => None,
         }
     }
 
@@ -97,6 +107,15 @@ impl Object {
     pub fn curve_display(&self) -> Option<&CurveDisplay> {
         match &self.content {
             Content::Curve { display, .. } => Some(display),
+            Content::Approximation(_) => None,
+        }
+    }
+
+    /// The approximation, if the object is one.
+    pub fn approximation(&self) -> Option<&Approximation> {
+        match &self.content {
+            Content::Approximation(approximation) => Some(approximation),
+            Content::Curve { .. } => None,
         }
     }
 

@@ -1,5 +1,6 @@
 //! What is drawn, not by whom.
 
+pub mod approximation;
 pub mod chart;
 pub mod clip;
 pub mod color_bar;

@@ -79,6 +79,7 @@ impl Document {
                         *shown = display.clone();
                         Ok(ShapeChange::None)
                     }
+                    other => Err(EditError::OtherKind { object: *object, kind: other.kind(), wanted: "curve" }),
                 })
             }
             Edit::MovePoints { object, points, delta } => {
@@ -176,7 +177,9 @@ impl Document {
         change: impl FnOnce(&Nurbs<DVec2>) -> Result<(Nurbs<DVec2>, ShapeChange), EditError>,
     ) -> Result<Outcome, EditError> {
         self.change(id, |object| {
-            let Content::Curve { curve, .. } = &mut object.content;
+            let Content::Curve { curve, .. } = &mut object.content else {
+                return Err(EditError::OtherKind { object: id, kind: object.content.kind(), wanted: "curve" });
+            };
             let (new, shape) = change(curve)?;
             check_point_count(new.points().len())?;
             *curve = new;
@@ -214,6 +217,8 @@ fn check_content(content: &Content) -> Result<(), EditError> {
             display.check()?;
             check_point_count(curve.points().len())
         }
+        // Valid by construction.
+        Content::Approximation(_) => Ok(()),
     }
 }
 

@@ -11,6 +11,7 @@
 //! Numbers are written in the shortest form that reads back as the same number. Unknown keys are refused, except in `view`:
 //! data that this program does not understand would be lost with the next save.
 
+mod approximation;
 mod curve;
 mod writer;
 
@@ -24,6 +25,7 @@ use crate::document::apply::{MAX_ID, MAX_OBJECTS, check_name};
 use crate::document::contents::Document;
 use crate::document::eye::EyeError;
 use crate::document::file_error::FileError;
+use crate::document::json::approximation::ApproximationRecord;
 use crate::document::json::curve::CurveRecord;
 use crate::document::json::writer::Node;
 use crate::document::object::{Content, Object, ObjectId};
@@ -66,6 +68,8 @@ struct ObjectRecord {
     visible: bool,
     #[serde(default)]
     curve: Option<CurveRecord>,
+    #[serde(default)]
+    approximation: Option<ApproximationRecord>,
 }
 
 /// The text of a file.
@@ -113,6 +117,7 @@ fn entry(key: &str, value: Value) -> (String, Node) {
 fn object_node(object: &Object) -> Node {
     let content = match &object.content {
         Content::Curve { curve, display } => curve::node(curve, display),
+        Content::Approximation(approximation) => approximation::node(approximation),
     };
     Node::Record(vec![
         entry("id", json!(object.id)),
@@ -192,10 +197,13 @@ fn document_of(records: Vec<ObjectRecord>, next_id: u64) -> Result<Document, Fil
 
 fn object_of(record: ObjectRecord, place: &str) -> Result<Object, FileError> {
     check_name(&record.name).map_err(|error| FileError::value(format!("{place}.name"), error))?;
-    let kinds = [record.curve.map(|curve| curve.content(&format!("{place}.curve")))];
+    let kinds = [
+        record.curve.map(|curve| curve.content(&format!("{place}.curve"))),
+        record.approximation.map(|record| record.content(&format!("{place}.approximation"))),
+    ];
     let mut found = kinds.into_iter().flatten();
     let (Some(content), None) = (found.next(), found.next()) else {
-        return Err(FileError::value(place, "an object needs exactly one of the kinds curve"));
+        return Err(FileError::value(place, "an object needs exactly one of the kinds curve, approximation"));
     };
     Ok(Object { id: ObjectId(record.id), name: record.name, visible: record.visible, content: content? })
 }
@@ -206,5 +214,9 @@ fn check_view(view: &View) -> Result<(), FileError> {
         return Err(FileError::value("view.camera.scale", format!("{scale} is not positive")));
     }
     let eye_error = |error: EyeError| FileError::value(format!("view.eye.{}", error.field), error);
-    view.eye.check().map_err(eye_error)
+    view.eye.check().map_err(eye_error)?;
+    for (id, plot) in &view.plots {
+        plot.check().map_err(|message| FileError::value(format!("view.plots.{id}"), message))?;
+    }
+    Ok(())
 }

@@ -48,7 +48,7 @@ pub fn compose_with(
         picture.push_layer("scale", grid_labels(viewport, theme));
     }
     for object in document.objects().iter().filter(|object| object.visible) {
-        let Content::Curve { curve, display } = &object.content;
+        let Content::Curve { curve, display } = &object.content else { continue };
         let parameter = parameter_of(curve, view.parameters.get(&object.id).copied());
         let reveal = choices.reveal.as_ref().filter(|(id, _)| *id == object.id).map(|(_, reveal)| reveal);
         push_curve(&mut picture, object, (curve, display), parameter, reveal, theme, viewport);
