@@ -10,6 +10,7 @@ use glam::DVec2;
 use crate::course::lessons;
 use crate::document::{self, Document};
 use crate::exchange::by_ending::{self, FigureFormat, figure, read_document};
+use crate::figure::approximation;
 use crate::figure::composition::compose;
 use crate::figure::picture::Viewport;
 use crate::figure::theme::Theme;
@@ -147,7 +148,11 @@ fn write_figure(
     let format = FigureFormat::of(output).map_err(|error| error.to_string())?;
     let saved = read_document(file).map_err(|error| error.to_string())?;
     let viewport = page(&saved.document, width, height)?;
-    let picture = compose(&saved.document, &saved.view, theme, &viewport);
+    let plots_height = height.map_or(0.75 * width, |height| height) * POINTS_PER_MM;
+    let size = DVec2::new(width * POINTS_PER_MM, plots_height);
+    let plots = approximation::page(&saved.document, &saved.view, theme, size);
+    let (picture, viewport) =
+        plots.unwrap_or_else(|| (compose(&saved.document, &saved.view, theme, &viewport), viewport));
     let bytes = figure(format, &picture, &viewport, &saved.document, &saved.view, scale);
     let bytes = bytes.map_err(|error| error.to_string())?;
     by_ending::write_file(output, &bytes).map_err(|error| error.to_string())

@@ -17,6 +17,12 @@ pub enum Command {
     SaveAs,
     /// Writes a figure of the canvas.
     ExportFigure,
+    /// Reads data from a table.
+    ImportData,
+    /// Writes the data as a table.
+    ExportData,
+    /// A new approximation.
+    NewApproximation,
     /// Shows the first scene again.
     FirstScene,
     /// Closes the lab.
@@ -37,6 +43,14 @@ pub enum Command {
     SelectTool,
     /// The tool that draws a new curve.
     DrawTool,
+    /// The tool that selects and drags data and knots.
+    SelectDataTool,
+    /// The tool that adds data.
+    AddPointTool,
+    /// Replaces the data by values of the function.
+    SampleFunction,
+    /// Error hidden, linear, logarithmic in turn.
+    CycleErrorPlot,
     /// Inserts a knot at the parameter.
     InsertKnot,
     /// Removes the selected knot.
@@ -110,6 +124,8 @@ pub enum Menu {
     Edit,
     /// The selected curve.
     Curve,
+    /// The selected approximation.
+    Approximation,
     /// What is shown.
     View,
     /// Lessons and the stepper.
@@ -120,12 +136,14 @@ pub enum Menu {
 
 impl Menu {
     /// All menus.
-    pub const ALL: [Self; 6] = [Self::File, Self::Edit, Self::Curve, Self::View, Self::Lesson, Self::Help];
+    pub const ALL: [Self; 7] =
+        [Self::File, Self::Edit, Self::Curve, Self::Approximation, Self::View, Self::Lesson, Self::Help];
 
     /// The only room where the menu is shown; `None` if it is everywhere.
     pub fn room(self) -> Option<Room> {
         match self {
             Self::Curve => Some(Room::Curves),
+            Self::Approximation => Some(Room::Approximation),
             _ => None,
         }
     }
@@ -136,6 +154,7 @@ impl Menu {
             Self::File => "File",
             Self::Edit => "Edit",
             Self::Curve => "Curve",
+            Self::Approximation => "Approximation",
             Self::View => "View",
             Self::Lesson => "Lesson",
             Self::Help => "Help",
@@ -149,12 +168,15 @@ const COMMAND_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND }
 
 impl Command {
     /// All commands, in the order of menus, palette and sheet.
-    pub const ALL: [Self; 46] = [
+    pub const ALL: [Self; 53] = [
         Self::New,
         Self::Open,
         Self::Save,
         Self::SaveAs,
         Self::ExportFigure,
+        Self::ImportData,
+        Self::ExportData,
+        Self::NewApproximation,
         Self::FirstScene,
         Self::Quit,
         Self::Undo,
@@ -165,6 +187,10 @@ impl Command {
         Self::Escape,
         Self::SelectTool,
         Self::DrawTool,
+        Self::SelectDataTool,
+        Self::AddPointTool,
+        Self::SampleFunction,
+        Self::CycleErrorPlot,
         Self::InsertKnot,
         Self::RemoveKnot,
         Self::RefineUniformly,
@@ -206,6 +232,13 @@ impl Command {
             Self::Save => ("Save", "Save the document"),
             Self::SaveAs => ("Save as…", "Save under another name"),
             Self::ExportFigure => ("Export figure…", "Write what the canvas shows as SVG, PDF or PNG"),
+            Self::ImportData => {
+                ("Import data…", "Read a table of x and y, with weights if wanted, from a CSV file")
+            }
+            Self::ExportData => ("Export data…", "Write the data as a CSV file"),
+            Self::NewApproximation => {
+                ("New approximation", "Data, a function, and methods that approximate them")
+            }
             Self::FirstScene => ("Show the first scene", "Open the scene that the lab starts with"),
             Self::Quit => ("Quit", "Close the lab"),
             Self::Undo => ("Undo", "Take back the last step"),
@@ -218,6 +251,12 @@ impl Command {
             Self::DrawTool => {
                 ("Draw a curve", "Click control points; Enter or double click ends, Backspace drops the last")
             }
+            Self::SelectDataTool => ("Select data", "Select and drag data and knots"),
+            Self::AddPointTool => ("Add points", "Click where data are to be"),
+            Self::SampleFunction => {
+                ("Sample the function", "Replace the data by as many values of the function, equally spaced")
+            }
+            Self::CycleErrorPlot => ("Error plot", "Linear, logarithmic, hidden in turn"),
             Self::InsertKnot => ("Insert knot at t", "Insert a knot at the parameter; the shape is kept"),
             Self::RemoveKnot => {
                 ("Remove knot", "Remove one copy of the selected knot; the deviation is measured")
@@ -273,6 +312,9 @@ impl Command {
             Self::Escape => (NONE, Key::Escape),
             Self::SelectTool => (NONE, Key::V),
             Self::DrawTool => (NONE, Key::D),
+            Self::SelectDataTool => (NONE, Key::V),
+            Self::AddPointTool => (NONE, Key::A),
+            Self::CycleErrorPlot => (NONE, Key::L),
             Self::InsertKnot => (NONE, Key::K),
             Self::RemoveKnot => (Modifiers::SHIFT, Key::K),
             Self::RefineUniformly => (NONE, Key::R),
@@ -302,7 +344,13 @@ impl Command {
             Self::PreviousLesson => (NONE, Key::PageUp),
             Self::Palette => (COMMAND, Key::P),
             Self::ShortcutSheet => (NONE, Key::F1),
-            Self::FirstScene | Self::Reverse | Self::ResetWeights => return None,
+            Self::ImportData
+            | Self::ExportData
+            | Self::NewApproximation
+            | Self::SampleFunction
+            | Self::FirstScene
+            | Self::Reverse
+            | Self::ResetWeights => return None,
         };
         Some(KeyboardShortcut::new(modifiers, key))
     }
@@ -332,6 +380,9 @@ impl Command {
             | Self::Save
             | Self::SaveAs
             | Self::ExportFigure
+            | Self::ImportData
+            | Self::ExportData
+            | Self::NewApproximation
             | Self::FirstScene
             | Self::Quit => Menu::File,
             Self::Undo | Self::Redo | Self::Delete | Self::Duplicate | Self::SelectAll | Self::Escape => {
@@ -347,6 +398,9 @@ impl Command {
             | Self::ToggleClosed
             | Self::Reverse
             | Self::ResetWeights => Menu::Curve,
+            Self::SelectDataTool | Self::AddPointTool | Self::SampleFunction | Self::CycleErrorPlot => {
+                Menu::Approximation
+            }
             Self::StepperPlay
             | Self::StepForward
             | Self::StepBack

@@ -23,8 +23,8 @@ mod storage;
 mod view;
 
 pub use approximation::{
-    Approximation, CubicEnds, DataError, ErrorPlot, KnotChoice, MAX_DATA, MAX_DEGREE, MAX_METHODS, Method, Preset,
-    Scheme, TypedFunction,
+    Approximation, CubicEnds, DataError, ErrorPlot, KnotChoice, MAX_DATA, MAX_DEGREE, MAX_METHODS, Method,
+    Preset, Scheme, TypedFunction,
 };
 pub use contents::Document;
 pub use display::{CurveDisplay, PointLabels};

@@ -79,7 +79,9 @@ impl Document {
                         *shown = display.clone();
                         Ok(ShapeChange::None)
                     }
-                    other => Err(EditError::OtherKind { object: *object, kind: other.kind(), wanted: "curve" }),
+                    other => {
+                        Err(EditError::OtherKind { object: *object, kind: other.kind(), wanted: "curve" })
+                    }
                 })
             }
             Edit::MovePoints { object, points, delta } => {
@@ -178,7 +180,11 @@ impl Document {
     ) -> Result<Outcome, EditError> {
         self.change(id, |object| {
             let Content::Curve { curve, .. } = &mut object.content else {
-                return Err(EditError::OtherKind { object: id, kind: object.content.kind(), wanted: "curve" });
+                return Err(EditError::OtherKind {
+                    object: id,
+                    kind: object.content.kind(),
+                    wanted: "curve",
+                });
             };
             let (new, shape) = change(curve)?;
             check_point_count(new.points().len())?;

@@ -164,9 +164,7 @@ pub(super) fn check_data(sites: &[f64], values: &[f64], weights: Option<&[f64]>)
     }
     let not_positive = weights.and_then(|weights| weights.iter().position(|&weight| weight <= 0.0));
     match (not_positive, weights) {
-        (Some(index), Some(weights)) => {
-            Err(DataError::WeightNotPositive { index, value: weights[index] })
-        }
+        (Some(index), Some(weights)) => Err(DataError::WeightNotPositive { index, value: weights[index] }),
         _ => Ok(()),
     }
 }

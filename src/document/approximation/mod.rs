@@ -17,7 +17,7 @@ pub const MAX_DATA: usize = 100_000;
 /// The largest number of methods.
 pub const MAX_METHODS: usize = 16;
 /// The longest formula in bytes.
-pub const MAX_FORMULA: usize = 4000;
+const MAX_FORMULA: usize = 4000;
 
 /// A function that somebody typed, with the interval where it is looked at.
 #[derive(Clone, Debug, PartialEq)]
@@ -441,10 +441,16 @@ mod tests {
             DataError::NotIncreasing { index: 2, value: 2.0, previous: 2.0 },
             "equal sites"
         );
-        assert!(matches!(name(&[0.0, f64::NAN], &[0.0; 2], None), DataError::NonFinite { index: 1, .. }), "NaN");
+        assert!(
+            matches!(name(&[0.0, f64::NAN], &[0.0; 2], None), DataError::NonFinite { index: 1, .. }),
+            "NaN"
+        );
         assert!(matches!(name(&[0.0], &[], None), DataError::SizeMismatch { .. }), "lengths");
         assert!(
-            matches!(name(&[0.0, 1.0], &[0.0; 2], Some(vec![1.0, 0.0])), DataError::WeightNotPositive { index: 1, .. }),
+            matches!(
+                name(&[0.0, 1.0], &[0.0; 2], Some(vec![1.0, 0.0])),
+                DataError::WeightNotPositive { index: 1, .. }
+            ),
             "weight"
         );
         let many = vec![0.0; MAX_DATA + 1];

@@ -78,7 +78,8 @@ impl Preset {
                 let graded = graded_breaks(0.0, 1.0, 8, 4.0).unwrap_or_default();
                 let inner = graded.get(1..graded.len().saturating_sub(1)).unwrap_or_default().to_vec();
                 let uniform = (1..8).map(|k| f64::from(k) / 8.0).collect();
-                let scheme = |knots: Vec<f64>| Scheme::Schoenberg { degree: 2, knots: KnotChoice::Inner(knots) };
+                let scheme =
+                    |knots: Vec<f64>| Scheme::Schoenberg { degree: 2, knots: KnotChoice::Inner(knots) };
                 let all = add(with("sqrt(x)", 0.0, 1.0)?, vec![scheme(uniform), scheme(inner)])?;
                 Ok(all.with_error_plot(ErrorPlot::Logarithmic))
             }
@@ -96,17 +97,13 @@ impl Preset {
             Self::NoisySine => {
                 let sites: Vec<f64> = (0..=40).map(|i| f64::from(i) / 40.0).collect();
                 let noise = |i: usize| (((7919 * i) % 101) as f64 - 50.0) / 50.0;
-                let values =
-                    (0..=40).map(|i| (TAU * sites[i]).sin() + 0.1 * noise(i)).collect();
+                let values = (0..=40).map(|i| (TAU * sites[i]).sin() + 0.1 * noise(i)).collect();
                 let data = with("sin(2 pi x)", 0.0, 1.0)?.with_data(sites, values, None)?;
                 add(
                     data,
                     vec![
                         Scheme::Smoothing { sigma: 2.73e-4 },
-                        Scheme::LeastSquares {
-                            degree: 3,
-                            knots: KnotChoice::Inner(vec![0.25, 0.5, 0.75]),
-                        },
+                        Scheme::LeastSquares { degree: 3, knots: KnotChoice::Inner(vec![0.25, 0.5, 0.75]) },
                         Scheme::Cubic { ends: CubicEnds::Natural },
                     ],
                 )

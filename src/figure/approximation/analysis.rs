@@ -94,8 +94,7 @@ pub fn fit(approximation: &Approximation, scheme: &Scheme) -> Result<Fit, Approx
             least_squares(space, sites, values, approximation.weights())?.spline
         }
         Scheme::Smoothing { sigma } => {
-            let result =
-                smoothing_spline(sites, values, approximation.weights(), Smoothing::Sigma(*sigma))?;
+            let result = smoothing_spline(sites, values, approximation.weights(), Smoothing::Sigma(*sigma))?;
             roughness = Some(result.roughness);
             degrees_of_freedom = Some(result.degrees_of_freedom);
             result.spline
@@ -180,8 +179,7 @@ fn space(
                 let value = knots[index];
                 return Err(ApproximationError::OutsideInterval { what: "knot", index, value, left, right });
             }
-            let breaks: Vec<f64> =
-                [left].into_iter().chain(knots.iter().copied()).chain([right]).collect();
+            let breaks: Vec<f64> = [left].into_iter().chain(knots.iter().copied()).chain([right]).collect();
             Ok(SplineSpace::from_breaks(degree, &breaks, EndKnots::Interpolating)?)
         }
     }

@@ -62,10 +62,9 @@ pub(super) fn legend(
     for (index, method) in approximation.methods().iter().enumerate().filter(|(_, method)| method.visible) {
         let title = method.scheme.title();
         let text = match analysis.fits.get(index) {
-            Some(Ok(fit)) => fit.error().map_or_else(
-                || title.clone(),
-                |error| format!("{title}: {}", error_text(error.size)),
-            ),
+            Some(Ok(fit)) => fit
+                .error()
+                .map_or_else(|| title.clone(), |error| format!("{title}: {}", error_text(error.size))),
             Some(Err(_)) => format!("{title}: no solution"),
             None => title,
         };
@@ -118,12 +117,8 @@ pub(super) fn push(
     let error = layout.error.as_ref();
     let areas = [Some(&layout.main), error.map(|(area, _)| area)];
     let frames = areas.into_iter().flatten().map(|area| {
-        let corners = [
-            area.low,
-            DVec2::new(area.high.x, area.low.y),
-            area.high,
-            DVec2::new(area.low.x, area.high.y),
-        ];
+        let corners =
+            [area.low, DVec2::new(area.high.x, area.low.y), area.high, DVec2::new(area.low.x, area.high.y)];
         Item::Path(Path::polygon(&corners, Some(theme.stroke(theme.axis, 0.75)), None))
     });
     picture.push_layer("frames", frames.collect());
@@ -148,12 +143,7 @@ pub(super) fn push(
 }
 
 /// The largest error of the methods in words, at the right end over the error plot.
-fn worst(
-    approximation: &Approximation,
-    analysis: &Analysis,
-    area: &PlotArea,
-    theme: &Theme,
-) -> Option<Item> {
+fn worst(approximation: &Approximation, analysis: &Analysis, area: &PlotArea, theme: &Theme) -> Option<Item> {
     let visible = approximation.methods().iter().zip(&analysis.fits).filter(|(method, _)| method.visible);
     let errors: Vec<_> =
         visible.filter_map(|(_, fit)| fit.as_ref().ok().and_then(|fit| fit.error())).collect();
@@ -195,9 +185,7 @@ fn legend_items(approximation: &Approximation, layout: &Layout, theme: &Theme) -
         let ends = [DVec2::new(entry.left, y), DVec2::new(entry.left + SAMPLE, y)];
         let middle = (ends[0] + ends[1]) * 0.5;
         items.push(match entry.of {
-            Of::Function => {
-                Item::Path(Path::polyline(&ends, theme.dashed_stroke(theme.text, 1.5, 6.0, 4.0)))
-            }
+            Of::Function => Item::Path(Path::polyline(&ends, theme.dashed_stroke(theme.text, 1.5, 6.0, 4.0))),
             Of::Data => Item::Marker(Marker {
                 at: middle,
                 shape: MarkerShape::Disc,

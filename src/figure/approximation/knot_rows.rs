@@ -62,12 +62,7 @@ fn support(error: &ApproximationError, row: &KnotRow, layout: &Layout, theme: &T
     Some(Item::Path(Path::polyline(&ends, theme.stroke(theme.error.with_opacity(0.6), 4.0))))
 }
 
-fn knots(
-    row: &KnotRow,
-    color: crate::figure::picture::Color,
-    layout: &Layout,
-    theme: &Theme,
-) -> Vec<Item> {
+fn knots(row: &KnotRow, color: crate::figure::picture::Color, layout: &Layout, theme: &Theme) -> Vec<Item> {
     let (left, right) = (layout.main.low.x, layout.main.high.x);
     let mut items = Vec::new();
     let mut last = f64::NEG_INFINITY;

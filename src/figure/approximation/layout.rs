@@ -128,9 +128,10 @@ impl Layout {
             .map(|(index, method)| {
                 let fit = analysis.fits.get(index).and_then(|fit| fit.as_deref().ok());
                 let (knots, movable) = knots_of(method, fit);
-                let all = method.scheme.space().is_some_and(|(_, choice)| {
-                    matches!(choice, crate::document::KnotChoice::All(_))
-                });
+                let all = method
+                    .scheme
+                    .space()
+                    .is_some_and(|(_, choice)| matches!(choice, crate::document::KnotChoice::All(_)));
                 let ends = interval(approximation, &method.scheme).filter(|_| !all);
                 KnotRow { method: index, y: 0.0, knots, movable, ends }
             })

@@ -83,8 +83,7 @@ fn sampled(
     }
     let width = (area.high.x - area.low.x) * ((to - from) / (area.x[1] - area.x[0]));
     let count = ((width / STEP).ceil() as usize).clamp(2, 20_000);
-    let mut sites: Vec<f64> =
-        (0..=count).map(|i| from + (to - from) * (i as f64 / count as f64)).collect();
+    let mut sites: Vec<f64> = (0..=count).map(|i| from + (to - from) * (i as f64 / count as f64)).collect();
     sites[count] = to;
     sites.extend(extra.iter().filter(|&&x| from < x && x < to));
     sites.sort_by(f64::total_cmp);

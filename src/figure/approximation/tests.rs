@@ -68,7 +68,8 @@ fn what_has_not_changed_is_not_computed_again() {
     let first = analyse(&all, None);
     let changed = all.replacing_method(1, Method::new(Scheme::Smoothing { sigma: 0.5 }, 1)).unwrap();
     let second = analyse(&changed, Some((&all, &first)));
-    let same = |i: usize| std::sync::Arc::ptr_eq(first.fits[i].as_ref().unwrap(), second.fits[i].as_ref().unwrap());
+    let same =
+        |i: usize| std::sync::Arc::ptr_eq(first.fits[i].as_ref().unwrap(), second.fits[i].as_ref().unwrap());
     assert_eq!((same(0), same(1), same(2)), (true, false, true), "only the second one is new");
 }
 
