@@ -10,9 +10,8 @@ use glam::DVec2;
 use crate::course::lessons;
 use crate::document::{self, Document};
 use crate::exchange::by_ending::{self, FigureFormat, figure, read_document};
-use crate::figure::composition::compose;
+use crate::figure::page::{has_free_height, page};
 use crate::figure::picture::Viewport;
-use crate::figure::surfaces;
 use crate::figure::theme::Theme;
 
 /// Points (1/72 inch) in a millimetre.
@@ -151,21 +150,19 @@ fn write_figure(
 ) -> Result<(), String> {
     let format = FigureFormat::of(output).map_err(|error| error.to_string())?;
     let saved = read_document(file).map_err(|error| error.to_string())?;
-    let viewport = page(&saved.document, width, height)?;
-    let (picture, viewport) = if surfaces::is_shown(&saved.view) {
-        // The box of curves says nothing about the height of a view of space.
-        let size = DVec2::new(viewport.size.x, height.map_or(0.75 * viewport.size.x, |_| viewport.size.y));
-        surfaces::compose(&saved.document, &saved.view, theme, size).map_err(|error| error.to_string())?
-    } else {
-        (compose(&saved.document, &saved.view, theme, &viewport), viewport)
-    };
+    let mut viewport = paper(&saved.document, width, height)?;
+    if has_free_height(&saved.document, &saved.view) {
+        viewport.size.y = height.map_or(0.75 * viewport.size.x, |_| viewport.size.y);
+    }
+    let (picture, viewport) =
+        page(&saved.document, &saved.view, theme, &viewport).map_err(|error| error.to_string())?;
     let bytes = figure(format, &picture, &viewport, &saved.document, &saved.view, scale);
     let bytes = bytes.map_err(|error| error.to_string())?;
     by_ending::write_file(output, &bytes).map_err(|error| error.to_string())
 }
 
 /// The page of the given width that shows all visible objects; its height follows from theirs unless it is given.
-fn page(document: &Document, width: f64, height: Option<f64>) -> Result<Viewport, String> {
+fn paper(document: &Document, width: f64, height: Option<f64>) -> Result<Viewport, String> {
     for (name, length) in [("width", Some(width)), ("height", height)] {
         if let Some(length) = length
             && !(10.0..=2000.0).contains(&length)
@@ -248,7 +245,7 @@ mod tests {
     #[test]
     fn a_page_shows_every_control_point_and_refuses_absurd_sizes() {
         let (document, _) = document::first_scene();
-        let viewport = page(&document, 160.0, None).unwrap();
+        let viewport = paper(&document, 160.0, None).unwrap();
         let (low, high) = document.bounding_box().unwrap();
         for corner in [low, high] {
             let place = viewport.page_from_world(corner);
@@ -258,7 +255,7 @@ mod tests {
             );
         }
         for width in [0.0, -3.0, f64::NAN, 1e9] {
-            assert!(page(&document, width, None).is_err(), "width {width}");
+            assert!(paper(&document, width, None).is_err(), "width {width}");
         }
     }
 }

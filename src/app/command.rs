@@ -21,6 +21,12 @@ pub enum Command {
     ImportMesh,
     /// Writes the selected mesh at the level shown.
     ExportMesh,
+    /// Reads data from a table.
+    ImportData,
+    /// Writes the data as a table.
+    ExportData,
+    /// A new approximation.
+    NewApproximation,
     /// Shows the first scene again.
     FirstScene,
     /// Closes the lab.
@@ -41,6 +47,14 @@ pub enum Command {
     SelectTool,
     /// The tool that draws a new curve.
     DrawTool,
+    /// The tool that selects and drags data and knots.
+    SelectDataTool,
+    /// The tool that adds data.
+    AddPointTool,
+    /// Replaces the data by values of the function.
+    SampleFunction,
+    /// Error hidden, linear, logarithmic in turn.
+    CycleErrorPlot,
     /// Inserts a knot at the parameter.
     InsertKnot,
     /// Removes the selected knot.
@@ -148,6 +162,8 @@ pub enum Menu {
     Curve,
     /// The selected surface or mesh.
     Surface,
+    /// The selected approximation.
+    Approximation,
     /// What is shown.
     View,
     /// Lessons and the stepper.
@@ -158,14 +174,23 @@ pub enum Menu {
 
 impl Menu {
     /// All menus.
-    pub const ALL: [Self; 7] =
-        [Self::File, Self::Edit, Self::Curve, Self::Surface, Self::View, Self::Lesson, Self::Help];
+    pub const ALL: [Self; 8] = [
+        Self::File,
+        Self::Edit,
+        Self::Curve,
+        Self::Approximation,
+        Self::Surface,
+        Self::View,
+        Self::Lesson,
+        Self::Help,
+    ];
 
     /// The only room where the menu is shown; `None` if it is everywhere.
     pub fn room(self) -> Option<Room> {
         match self {
             Self::Curve => Some(Room::Curves),
             Self::Surface => Some(Room::Surfaces),
+            Self::Approximation => Some(Room::Approximation),
             _ => None,
         }
     }
@@ -177,6 +202,7 @@ impl Menu {
             Self::Edit => "Edit",
             Self::Curve => "Curve",
             Self::Surface => "Surface",
+            Self::Approximation => "Approximation",
             Self::View => "View",
             Self::Lesson => "Lesson",
             Self::Help => "Help",
@@ -190,7 +216,7 @@ const COMMAND_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND }
 
 impl Command {
     /// All commands, in the order of menus, palette and sheet.
-    pub const ALL: [Self; 64] = [
+    pub const ALL: [Self; 71] = [
         Self::New,
         Self::Open,
         Self::Save,
@@ -198,6 +224,9 @@ impl Command {
         Self::ExportFigure,
         Self::ImportMesh,
         Self::ExportMesh,
+        Self::ImportData,
+        Self::ExportData,
+        Self::NewApproximation,
         Self::FirstScene,
         Self::Quit,
         Self::Undo,
@@ -208,6 +237,10 @@ impl Command {
         Self::Escape,
         Self::SelectTool,
         Self::DrawTool,
+        Self::SelectDataTool,
+        Self::AddPointTool,
+        Self::SampleFunction,
+        Self::CycleErrorPlot,
         Self::InsertKnot,
         Self::RemoveKnot,
         Self::RefineUniformly,
@@ -265,6 +298,13 @@ impl Command {
             Self::Save => ("Save", "Save the document"),
             Self::SaveAs => ("Save as…", "Save under another name"),
             Self::ExportFigure => ("Export figure…", "Write what the canvas shows as SVG, PDF or PNG"),
+            Self::ImportData => {
+                ("Import data…", "Read a table of x and y, with weights if wanted, from a CSV file")
+            }
+            Self::ExportData => ("Export data…", "Write the data as a CSV file"),
+            Self::NewApproximation => {
+                ("New approximation", "Data, a function, and methods that approximate them")
+            }
             Self::FirstScene => ("Show the first scene", "Open the scene that the lab starts with"),
             Self::Quit => ("Quit", "Close the lab"),
             Self::Undo => ("Undo", "Take back the last step"),
@@ -277,6 +317,12 @@ impl Command {
             Self::DrawTool => {
                 ("Draw a curve", "Click control points; Enter or double click ends, Backspace drops the last")
             }
+            Self::SelectDataTool => ("Select data", "Select and drag data and knots"),
+            Self::AddPointTool => ("Add points", "Click where data are to be"),
+            Self::SampleFunction => {
+                ("Sample the function", "Replace the data by as many values of the function, equally spaced")
+            }
+            Self::CycleErrorPlot => ("Error plot", "Linear, logarithmic, hidden in turn"),
             Self::InsertKnot => ("Insert knot at t", "Insert a knot at the parameter; the shape is kept"),
             Self::RemoveKnot => {
                 ("Remove knot", "Remove one copy of the selected knot; the deviation is measured")
@@ -358,6 +404,9 @@ impl Command {
             Self::Escape => (NONE, Key::Escape),
             Self::SelectTool => (NONE, Key::V),
             Self::DrawTool => (NONE, Key::D),
+            Self::SelectDataTool => (NONE, Key::V),
+            Self::AddPointTool => (NONE, Key::A),
+            Self::CycleErrorPlot => (NONE, Key::L),
             Self::InsertKnot => (NONE, Key::K),
             Self::RemoveKnot => (Modifiers::SHIFT, Key::K),
             Self::RefineUniformly => (NONE, Key::R),
@@ -397,7 +446,6 @@ impl Command {
             Self::PreviousLesson => (NONE, Key::PageUp),
             Self::Palette => (COMMAND, Key::P),
             Self::ShortcutSheet => (NONE, Key::F1),
-            Self::FirstScene | Self::Reverse | Self::ResetWeights => return None,
             Self::ImportMesh
             | Self::ExportMesh
             | Self::RefineU
@@ -405,7 +453,14 @@ impl Command {
             | Self::ElevateU
             | Self::ElevateV
             | Self::ReverseU
-            | Self::ReverseV => return None,
+            | Self::ReverseV
+            | Self::ImportData
+            | Self::ExportData
+            | Self::NewApproximation
+            | Self::SampleFunction
+            | Self::FirstScene
+            | Self::Reverse
+            | Self::ResetWeights => return None,
         };
         Some(KeyboardShortcut::new(modifiers, key))
     }
@@ -439,6 +494,9 @@ impl Command {
             | Self::ExportFigure
             | Self::ImportMesh
             | Self::ExportMesh
+            | Self::ImportData
+            | Self::ExportData
+            | Self::NewApproximation
             | Self::FirstScene
             | Self::Quit => Menu::File,
             Self::Undo | Self::Redo | Self::Delete | Self::Duplicate | Self::SelectAll | Self::Escape => {
@@ -470,6 +528,9 @@ impl Command {
             | Self::ReverseU
             | Self::ReverseV
             | Self::ToggleParallel => Menu::Surface,
+            Self::SelectDataTool | Self::AddPointTool | Self::SampleFunction | Self::CycleErrorPlot => {
+                Menu::Approximation
+            }
             Self::StepperPlay
             | Self::StepForward
             | Self::StepBack

@@ -47,8 +47,11 @@ pub(crate) fn is_possible(command: Command, lab: &Lab) -> bool {
         Command::ElevateDegree => lab.curve().is_some_and(|curve| curve.degree() < HIGHEST_DEGREE),
         Command::ReduceDegree => lab.curve().is_some_and(|curve| curve.degree() > 1),
         Command::ResetWeights => lab.curve().is_some_and(|curve| !curve.is_polynomial()),
-        Command::SelectAll
-        | Command::InsertKnot
+        Command::SelectAll => lab.curve().is_some() || lab.approximation().is_some(),
+        Command::ExportData => lab.approximation().is_some_and(|data| !data.is_empty()),
+        Command::CycleErrorPlot => lab.approximation().is_some(),
+        Command::SampleFunction => lab.approximation().is_some_and(|data| data.function().is_some()),
+        Command::InsertKnot
         | Command::RefineUniformly
         | Command::ToggleClosed
         | Command::Reverse
@@ -75,6 +78,8 @@ pub(crate) fn is_on(command: Command, lab: &Lab) -> Option<bool> {
     Some(match command {
         Command::SelectTool => lab.tool == Tool::Select,
         Command::DrawTool => lab.tool == Tool::Draw,
+        Command::SelectDataTool => lab.tool != Tool::AddPoint,
+        Command::AddPointTool => lab.tool == Tool::AddPoint,
         Command::ToggleGrid => panel(GRID),
         Command::TogglePolygon => display(|display| display.polygon),
         Command::ToggleComb => display(|display| display.comb),

@@ -11,7 +11,9 @@ use crate::app::sheet::{Sheet, Shelf};
 use crate::app::workspace::Room;
 use crate::core::spline_curve::Nurbs;
 use crate::course::{Lesson, Stepper, Verdict};
-use crate::document::{Document, Edit, EditError, History, ObjectId, Outcome, ShapeChange, View};
+use crate::document::{
+    Approximation, Document, Edit, EditError, History, ObjectId, Outcome, ShapeChange, View,
+};
 use crate::figure::theme::Theme;
 
 /// What is selected: one object, and some of its control points or one of its knots.
@@ -49,6 +51,8 @@ pub enum Tool {
     Select,
     /// Click control points of a new curve.
     Draw,
+    /// Click data of an approximation.
+    AddPoint,
 }
 
 /// Kind of a message.
@@ -222,6 +226,11 @@ impl Lab {
     /// The curve of the selected object.
     pub fn curve(&self) -> Option<&Nurbs<DVec2>> {
         self.selection.object.and_then(|id| self.history.document().curve(id))
+    }
+
+    /// The approximation of the selected object.
+    pub fn approximation(&self) -> Option<&Approximation> {
+        self.selection.object.and_then(|id| self.history.document().approximation(id))
     }
 
     /// The parameter at which `object` is looked at; the middle of its interval if none was chosen yet.

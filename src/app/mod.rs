@@ -8,6 +8,7 @@ pub mod directories;
 pub mod lab;
 pub mod sheet;
 
+mod approximation;
 mod command_state;
 mod curves;
 mod dialog;

@@ -12,19 +12,22 @@ pub enum Room {
     /// Plane curves.
     #[default]
     Curves,
+    /// Data, functions, and methods that approximate them.
+    Approximation,
     /// Surfaces and subdivided meshes in space.
     Surfaces,
 }
 
 impl Room {
     /// All rooms.
-    pub const ALL: [Self; 2] = [Self::Curves, Self::Surfaces];
+    pub const ALL: [Self; 3] = [Self::Curves, Self::Approximation, Self::Surfaces];
 
     /// The name on the tab.
     pub fn title(self) -> &'static str {
         match self {
             Self::Curves => "Curves",
             Self::Surfaces => "Surfaces",
+            Self::Approximation => "Approximation",
         }
     }
 
@@ -33,6 +36,7 @@ impl Room {
         match self {
             Self::Curves => "",
             Self::Surfaces => crate::figure::surfaces::WORKSPACE,
+            Self::Approximation => crate::figure::approximation::ROOM,
         }
     }
 
@@ -46,6 +50,7 @@ impl Room {
         match content {
             Content::Curve { .. } => Self::Curves,
             Content::Surface(_) | Content::Mesh(_) => Self::Surfaces,
+            Content::Approximation(_) => Self::Approximation,
         }
     }
 }
@@ -86,7 +91,11 @@ pub(crate) trait Workspace {
 
 /// The workspaces of all rooms, in the order of [`Room::ALL`].
 pub(crate) fn all() -> Vec<Box<dyn Workspace>> {
-    vec![Box::new(crate::app::curves::Curves::default()), Box::new(crate::app::surfaces::Surfaces::default())]
+    vec![
+        Box::new(crate::app::curves::Curves::default()),
+        Box::new(crate::app::approximation::ApproximationRoom::default()),
+        Box::new(crate::app::surfaces::Surfaces::default()),
+    ]
 }
 
 #[cfg(test)]

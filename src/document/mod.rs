@@ -6,6 +6,7 @@
 //! [`save`] and [`load`] keep files, [`Autosave`] what has not been saved yet.
 
 mod apply;
+mod approximation;
 mod contents;
 mod display;
 mod edit;
@@ -23,6 +24,10 @@ mod storage;
 mod surface;
 mod view;
 
+pub use approximation::{
+    Approximation, CubicEnds, DataError, ErrorPlot, KnotChoice, MAX_DATA, MAX_DEGREE, MAX_METHODS, Method,
+    Preset, Scheme, TypedFunction,
+};
 pub use contents::Document;
 pub use display::{CurveDisplay, PointLabels};
 pub use edit::{Edit, MAX_EDIT_DEGREE};
@@ -38,4 +43,4 @@ pub use recovery::{Autosave, Damaged, Recovered};
 pub use samples::first_scene;
 pub use storage::{MAX_FILE_BYTES, load, save};
 pub use surface::{SurfaceColoring, SurfaceDisplay, SurfaceObject};
-pub use view::{Camera, Saved, View};
+pub use view::{Camera, PlotWindow, Saved, View};

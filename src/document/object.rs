@@ -6,6 +6,7 @@ use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
 use crate::core::spline_curve::Nurbs;
+use crate::document::approximation::Approximation;
 use crate::document::display::CurveDisplay;
 use crate::document::mesh::MeshObject;
 use crate::document::surface::SurfaceObject;
@@ -48,6 +49,8 @@ pub enum Content {
     Surface(SurfaceObject),
     /// A polygon mesh that is subdivided.
     Mesh(MeshObject),
+    /// Data, a function, and methods that approximate them.
+    Approximation(Approximation),
 }
 
 impl Content {
@@ -57,6 +60,7 @@ impl Content {
             Self::Curve { .. } => "curve",
             Self::Surface(_) => "surface",
             Self::Mesh(_) => "mesh",
+            Self::Approximation(_) => "approximation",
         }
     }
 
@@ -80,6 +84,7 @@ impl Content {
                 let [v, e, f, _] = object.cage().counts();
                 format!("mesh with {v} vertices, {e} edges, {f} faces, level {}", object.level())
             }
+            Self::Approximation(approximation) => approximation.summary(),
         }
     }
 
@@ -89,6 +94,9 @@ impl Content {
             Self::Curve { display, .. } => display.color,
             Self::Surface(object) => object.display().color,
             Self::Mesh(object) => object.display().color,
+            Self::Approximation(approximation) => {
+                approximation.methods().first().map_or(0, |method| method.color)
+            }
         }
     }
 
@@ -98,6 +106,7 @@ impl Content {
             Self::Curve { curve, .. } => curve.points().len(),
             Self::Surface(object) => object.surface().points().len(),
             Self::Mesh(object) => object.cage().positions().len(),
+            Self::Approximation(approximation) => approximation.len(),
         }
     }
 
@@ -116,6 +125,7 @@ impl Content {
                 let [v, e, f, _] = object.cage().counts().map(|count| usize::try_from(count).unwrap_or(0));
                 24 * (v + e) + 32 * f
             }
+            Self::Approximation(approximation) => approximation.byte_size(),
         }
     }
 }
@@ -149,6 +159,14 @@ impl Object {
     pub fn curve_display(&self) -> Option<&CurveDisplay> {
         match &self.content {
             Content::Curve { display, .. } => Some(display),
+            _ => None,
+        }
+    }
+
+    /// The approximation, if the object is one.
+    pub fn approximation(&self) -> Option<&Approximation> {
+        match &self.content {
+            Content::Approximation(approximation) => Some(approximation),
             _ => None,
         }
     }

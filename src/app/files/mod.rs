@@ -12,6 +12,7 @@ use std::sync::mpsc::{self, Receiver};
 
 use eframe::egui::{Context, Ui, ViewportCommand};
 
+use crate::app::approximation::{new_approximation, take_table};
 use crate::app::command::Command;
 use crate::app::directories::Directories;
 use crate::app::file_dialog::{self, Answer, FileDialog, Purpose, Request};
@@ -20,7 +21,8 @@ use crate::app::preferences::{self, Preferences};
 use crate::app::sheet::Sheet;
 use crate::document::{self, Content, Document, EXTENSION, Edit, Recovered, Saved, View};
 use crate::exchange::by_ending::{self, FIGURE_ENDINGS, FigureFormat};
-use crate::figure::composition::compose;
+use crate::exchange::csv::{CsvError, read_csv_file, write_csv};
+use crate::figure::page::page;
 use crate::figure::picture::Viewport;
 use crate::figure::surfaces;
 use crate::figure::theme::Theme;
@@ -32,6 +34,9 @@ pub(crate) use lessons::{back_to_document, open_lesson, restart_lesson};
 
 /// Pixels of an exported PNG per point: 144 to the inch, sharp on paper and on fine screens.
 const PNG_SCALE: f64 = 2.0;
+
+/// Endings of tables, the usual one first.
+const TABLES: &[&str] = &["csv", "tsv", "txt", "dat"];
 
 /// What is to be done once nothing can be lost any more.
 #[derive(Debug)]
@@ -50,6 +55,8 @@ enum Wanted {
     Figure,
     Mesh,
     MeshOut,
+    Data,
+    DataCopy,
 }
 
 /// The files of the lab: dialogs, questions, preferences and the keeper of unsaved work.
@@ -160,6 +167,9 @@ impl Files {
             Command::ImportMesh => self.ask_for_file(Wanted::Mesh, lab),
             Command::ExportMesh => self.ask_for_file(Wanted::MeshOut, lab),
             Command::ExportFigure => self.ask_for_file(Wanted::Figure, lab),
+            Command::ImportData => self.ask_for_file(Wanted::Data, lab),
+            Command::ExportData => self.ask_for_file(Wanted::DataCopy, lab),
+            Command::NewApproximation => new_approximation(lab, None),
             Command::FirstScene => {
                 let (document, view) = document::first_scene();
                 self.proceed(Then::Show(Box::new(Saved { document, view }), None), lab);
@@ -217,6 +227,8 @@ impl Files {
             Wanted::Figure => {
                 (Purpose::Save, "Export a figure", "figures", FIGURE_ENDINGS, format!("{name}.svg"))
             }
+            Wanted::Data => (Purpose::Open, "Import data", "tables", TABLES, String::new()),
+            Wanted::DataCopy => (Purpose::Save, "Export the data", "tables", TABLES, format!("{name}.csv")),
         };
         let request = Request { purpose, title, kind, extensions, folder, file_name };
         self.dialog = Some((FileDialog::ask(request, self.desktop), wanted));
@@ -232,6 +244,8 @@ impl Files {
             Wanted::Open | Wanted::Mesh => self.open(&path, lab),
             Wanted::MeshOut => self.export_mesh(&path, lab),
             Wanted::Figure => self.export(path, lab),
+            Wanted::Data => self.import_data(&path, lab),
+            Wanted::DataCopy => self.export_data(&path, lab),
             Wanted::Save(then) => {
                 if self.save(&path, lab)
                     && let Some(then) = then
@@ -417,16 +431,12 @@ impl Files {
         let viewport = Viewport { center: camera.center, scale: camera.scale, size: lab.canvas_size };
         let (send, receive) = mpsc::channel();
         let write = move || {
-            let (picture, viewport) = if surfaces::is_shown(&view) {
-                match surfaces::compose(&document, &view, &theme, viewport.size) {
-                    Ok(composed) => composed,
-                    Err(error) => {
-                        let _ = send.send(Err(error.to_string()));
-                        return;
-                    }
+            let (picture, viewport) = match page(&document, &view, &theme, &viewport) {
+                Ok(page) => page,
+                Err(error) => {
+                    let _ = send.send(Err(error.to_string()));
+                    return;
                 }
-            } else {
-                (compose(&document, &view, &theme, &viewport), viewport)
             };
             let written = by_ending::figure(format, &picture, &viewport, &document, &view, PNG_SCALE)
                 .and_then(|bytes| by_ending::write_file(&path, &bytes));
@@ -464,7 +474,35 @@ impl Files {
         if let Some(path) = dropped
             && !self.is_asking()
         {
-            self.open(&path, lab);
+            if is_table(&path) {
+                self.import_data(&path, lab);
+            } else {
+                self.open(&path, lab);
+            }
+        }
+    }
+
+    fn import_data(&mut self, path: &Path, lab: &mut Lab) {
+        match read_csv_file(path) {
+            Ok(table) => take_table(lab, table, &name_of(path)),
+            Err(error) => {
+                let text = match &error {
+                    CsvError::Io { .. } | CsvError::TooLarge { .. } => error.to_string(),
+                    _ => format!("{}: {error}", path.display()),
+                };
+                self.problems.push(Problem::new("These data cannot be imported", text));
+            }
+        }
+    }
+
+    fn export_data(&mut self, path: &Path, lab: &mut Lab) {
+        let Some(data) = lab.approximation() else { return };
+        let text = write_csv(data.sites(), data.values(), data.weights());
+        match by_ending::write_file(path, text.as_bytes()) {
+            Ok(()) => lab.done(format!("Data written to {}", name_of(path))),
+            Err(error) => {
+                self.problems.push(Problem::new("The data were not written", error.to_string()));
+            }
         }
     }
 
@@ -506,6 +544,12 @@ fn view_to_save(lab: &Lab) -> View {
         selected_points: lab.selection.points.iter().copied().collect(),
         ..lab.view.clone()
     }
+}
+
+/// Whether `path` has the ending of a table.
+fn is_table(path: &Path) -> bool {
+    let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+    ending.is_some_and(|ending| TABLES.contains(&ending.as_str()))
 }
 
 /// Name of a file for people.

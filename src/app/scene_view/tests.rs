@@ -122,7 +122,7 @@ fn without_a_gpu_the_processor_paints() {
     harness.step();
     let textured = |shape: &Shape| match shape {
         Shape::Rect(rect) => rect.brush.is_some(),
-        Shape::Mesh(mesh) => mesh.texture_id != eframe::egui::TextureId::default(),
+        Shape::Mesh(mesh) => mesh.texture_id != egui::TextureId::default(),
         _ => false,
     };
     let shapes = &harness.output().shapes;
@@ -205,10 +205,10 @@ fn the_wheel_keeps_what_lies_under_the_pointer() {
     let page = page_from_screen(harness.state().rect, at);
     let held = before.world_from_page(page, before.eye.state().distance);
     harness.event(Event::MouseWheel {
-        unit: eframe::egui::MouseWheelUnit::Point,
+        unit: egui::MouseWheelUnit::Point,
         delta: vec2(0.0, 120.0),
-        phase: eframe::egui::TouchPhase::Move,
-        source: eframe::egui::MouseWheelSource::Unknown,
+        phase: egui::TouchPhase::Move,
+        source: egui::MouseWheelSource::Unknown,
         modifiers: Modifiers::NONE,
     });
     (0..40).for_each(|_| harness.step());

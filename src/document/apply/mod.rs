@@ -220,7 +220,7 @@ fn check_content(content: &Content) -> Result<(), EditError> {
             check_point_count(curve.points().len())
         }
         // Valid by construction.
-        Content::Surface(_) | Content::Mesh(_) => Ok(()),
+        Content::Approximation(_) | Content::Surface(_) | Content::Mesh(_) => Ok(()),
     }
 }
 

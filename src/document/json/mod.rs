@@ -11,6 +11,7 @@
 //! Numbers are written in the shortest form that reads back as the same number. Unknown keys are refused, except in `view`:
 //! data that this program does not understand would be lost with the next save.
 
+mod approximation;
 mod curve;
 mod mesh;
 mod surface;
@@ -26,6 +27,7 @@ use crate::document::apply::{MAX_ID, MAX_OBJECTS, check_name};
 use crate::document::contents::Document;
 use crate::document::eye::EyeError;
 use crate::document::file_error::FileError;
+use crate::document::json::approximation::ApproximationRecord;
 use crate::document::json::curve::CurveRecord;
 use crate::document::json::mesh::MeshRecord;
 use crate::document::json::surface::SurfaceRecord;
@@ -74,6 +76,8 @@ struct ObjectRecord {
     surface: Option<SurfaceRecord>,
     #[serde(default)]
     mesh: Option<MeshRecord>,
+    #[serde(default)]
+    approximation: Option<ApproximationRecord>,
 }
 
 /// The text of a file.
@@ -123,6 +127,7 @@ fn object_node(object: &Object) -> Node {
         Content::Curve { curve, display } => curve::node(curve, display),
         Content::Surface(surface) => surface::node(surface),
         Content::Mesh(mesh) => mesh::node(mesh),
+        Content::Approximation(approximation) => approximation::node(approximation),
     };
     Node::Record(vec![
         entry("id", json!(object.id)),
@@ -206,10 +211,14 @@ fn object_of(record: ObjectRecord, place: &str) -> Result<Object, FileError> {
         record.curve.map(|curve| curve.content(&format!("{place}.curve"))),
         record.surface.map(|surface| surface.content(&format!("{place}.surface"))),
         record.mesh.map(|mesh| mesh.content(&format!("{place}.mesh"))),
+        record.approximation.map(|record| record.content(&format!("{place}.approximation"))),
     ];
     let mut found = kinds.into_iter().flatten();
     let (Some(content), None) = (found.next(), found.next()) else {
-        return Err(FileError::value(place, "an object needs exactly one of the kinds curve, surface, mesh"));
+        return Err(FileError::value(
+            place,
+            "an object needs exactly one of the kinds curve, approximation, surface, mesh",
+        ));
     };
     Ok(Object { id: ObjectId(record.id), name: record.name, visible: record.visible, content: content? })
 }
@@ -220,5 +229,9 @@ fn check_view(view: &View) -> Result<(), FileError> {
         return Err(FileError::value("view.camera.scale", format!("{scale} is not positive")));
     }
     let eye_error = |error: EyeError| FileError::value(format!("view.eye.{}", error.field), error);
-    view.eye.check().map_err(eye_error)
+    view.eye.check().map_err(eye_error)?;
+    for (id, plot) in &view.plots {
+        plot.check().map_err(|message| FileError::value(format!("view.plots.{id}"), message))?;
+    }
+    Ok(())
 }
