@@ -122,14 +122,18 @@ fn say(text: &str) -> Result<(), String> {
 
 #[cfg(feature = "app")]
 fn open_window(file: Option<PathBuf>) -> Result<(), String> {
-    crate::app::run(file).map_err(|error| {
-        format!(
-            "the window cannot be opened: {error}\n\
-             A display (X11 or Wayland) and a Vulkan or OpenGL driver are needed. Without a graphics card Mesa's software\n\
-             drivers do, on Debian: apt install mesa-vulkan-drivers libgl1-mesa-dri\n\
-             These work without a window: spline-lab figure, convert, check, lessons"
-        )
-    })
+    crate::app::run(file).map_err(|error| without_window(&error.to_string()))
+}
+
+/// What to say to somebody whose machine cannot show the window.
+#[cfg(feature = "app")]
+fn without_window(error: &str) -> String {
+    format!(
+        "the window cannot be opened: {error}\n\
+         A display (X11 or Wayland) and a Vulkan or OpenGL driver are needed. Without a graphics card Mesa's software\n\
+         drivers do, on Debian: apt install mesa-vulkan-drivers, or libgl1-mesa-dri with libegl1\n\
+         These work without a window: spline-lab figure, convert, check, lessons"
+    )
 }
 
 #[cfg(not(feature = "app"))]
@@ -223,6 +227,18 @@ mod tests {
     use clap::CommandFactory as _;
 
     use super::*;
+
+    #[cfg(feature = "app")]
+    #[test]
+    fn without_a_window_one_learns_what_to_install_and_what_works() {
+        let message = without_window("no adapter");
+        for part in
+            ["no adapter", "mesa-vulkan-drivers", "libgl1-mesa-dri", "figure, convert, check, lessons"]
+        {
+            assert!(message.contains(part), "{part} is missing in: {message}");
+        }
+        assert!(message.lines().all(|line| !line.starts_with("     ")), "no stray indentation: {message}");
+    }
 
     #[test]
     fn the_arguments_are_consistent() {

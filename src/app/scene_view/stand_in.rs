@@ -140,6 +140,14 @@ impl StandIn {
         }
     }
 
+    /// Waits until what was asked for is there.
+    #[cfg(test)]
+    pub(super) fn finish(&mut self, ctx: &Context) {
+        while self.asked.is_some() && self.shown.as_ref().map(|shown| shown.page) != self.asked {
+            self.take_answers(Duration::from_secs(60), ctx);
+        }
+    }
+
     fn take(&mut self, drawn: Drawn, ctx: &Context) {
         if self.last.is_some_and(|(page, _)| page.pixels_per_point <= drawn.page.pixels_per_point) {
             self.fine = drawn.took;
@@ -227,4 +235,12 @@ fn draw(scene: &Scene, page: &Page) -> Result<(Option<ColorImage>, Picture), Fig
 
 fn pixels(image: &Image) -> ColorImage {
     ColorImage::from_rgba_unmultiplied([image.width() as usize, image.height() as usize], image.pixels())
+}
+
+#[cfg(test)]
+pub(super) fn draw_for_tests(scene: &Scene, size: DVec2) -> (Option<ColorImage>, Picture) {
+    let view = EyeView { eye: crate::figure::scene::Eye::default(), size };
+    let light = crate::figure::theme::Theme::light().light;
+    draw(scene, &Page { version: 0, view, light, ground: Color::hex(0xFF_FF_FF), pixels_per_point: 1.0 })
+        .unwrap()
 }
