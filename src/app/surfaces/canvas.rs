@@ -276,7 +276,7 @@ impl Canvas {
                 }
             }
             Target::Edge(id, ends) => {
-                self.paint_edge(lab, id, ends, &place, Stroke::new(3.0, ink.gamma_multiply(0.5)), &painter)
+                self.paint_edge(lab, id, ends, &place, Stroke::new(3.0, ink.gamma_multiply(0.5)), &painter);
             }
             _ => {}
         }

@@ -128,7 +128,7 @@ pub(super) fn execute(command: Command, lab: &mut Lab) -> bool {
         };
     match command {
         Command::LevelUp => {
-            change(lab, "Refine", |content| on_mesh(content, |mesh| mesh.with_level(mesh.level() + 1)))
+            change(lab, "Refine", |content| on_mesh(content, |mesh| mesh.with_level(mesh.level() + 1)));
         }
         Command::LevelDown => change(lab, "Coarsen", |content| {
             on_mesh(content, |mesh| mesh.with_level(mesh.level().saturating_sub(1)))

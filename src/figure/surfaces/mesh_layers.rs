@@ -102,7 +102,8 @@ fn triangles(
         triangles = triangles.with_normals(normals)?;
     }
     if display.coloring == SurfaceColoring::Plain {
-        triangles.back_color = Some(theme.surface_back);
+        // The inside of a closed mesh is not seen.
+        triangles.back_color = (!refined.topology().is_closed()).then_some(theme.surface_back);
         return Ok((triangles, None));
     }
     let value = |(gaussian, principal)| display.coloring.value(gaussian, principal).unwrap_or(f64::NAN);

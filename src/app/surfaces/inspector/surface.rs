@@ -6,7 +6,7 @@ use eframe::egui::{Id, RichText, Ui};
 
 use crate::app::command::Command;
 use crate::app::lab::Lab;
-use crate::app::number_field::{Drag, NumberField};
+use crate::app::number_field::{Drag, NumberEvent, NumberField};
 use crate::app::surfaces::commands;
 use crate::app::surfaces::inspector::{check_boxes, color_limit, coloring, section};
 use crate::app::toolbar::button;
@@ -57,15 +57,9 @@ fn direction(lab: &mut Lab, ui: &mut Ui, surface: &SurfaceObject, axis: usize) {
         let name = ["New knot in u", "New knot in v"][axis];
         let field = NumberField::new(name, knot).width(58.0).drag(Drag::PerPixel((high - low) / 300.0));
         let field = field.show(ui, ("new knot", axis));
-        match field.event {
-            Some(
-                crate::app::number_field::NumberEvent::Typed { to, .. }
-                | crate::app::number_field::NumberEvent::Dragged { to, .. },
-            ) => {
-                knot = to.clamp(low, high);
-                ui.data_mut(|data| data.insert_temp(id, knot));
-            }
-            _ => {}
+        if let Some(NumberEvent::Typed { to, .. } | NumberEvent::Dragged { to, .. }) = field.event {
+            knot = to.clamp(low, high);
+            ui.data_mut(|data| data.insert_temp(id, knot));
         }
         let hint = "Insert this knot; the surface is kept, its net comes nearer";
         if ui.button(format!("Insert knot in {letter}")).on_hover_text(hint).clicked() {
