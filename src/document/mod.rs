@@ -14,6 +14,7 @@ mod eye;
 mod file_error;
 mod history;
 mod json;
+mod membrane;
 mod object;
 mod outcome;
 mod recovery;
@@ -29,6 +30,10 @@ pub use eye::{EyeError, EyeState};
 pub use file_error::FileError;
 pub use history::{DEFAULT_BUDGET, History};
 pub use json::{EXTENSION, FORMAT_VERSION, from_json, to_json};
+pub use membrane::{
+    FieldColors, HandleId, Membrane, MembraneDisplay, MembraneError, MembranePreset, Operation, Part, Region,
+    Setting, Shape, Shown, VARIABLES, read_formula,
+};
 pub use object::{Content, Object, ObjectId};
 pub use outcome::{Outcome, ShapeChange};
 pub use recovery::{Autosave, Damaged, Recovered};

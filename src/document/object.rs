@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::core::spline_curve::Nurbs;
 use crate::document::display::CurveDisplay;
+use crate::document::membrane::{Membrane, MembraneDisplay};
 
 /// The number of an object: stable as long as the document lives, never given twice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -42,6 +43,13 @@ pub enum Content {
         /// How it is drawn.
         display: CurveDisplay,
     },
+    /// A boundary value problem.
+    Membrane {
+        /// The problem.
+        membrane: Membrane,
+        /// How it and its solution are drawn.
+        display: MembraneDisplay,
+    },
 }
 
 impl Content {
@@ -49,6 +57,7 @@ impl Content {
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Curve { .. } => "curve",
+            Self::Membrane { .. } => "membrane",
         }
     }
 
@@ -62,6 +71,7 @@ impl Content {
                 curve.degree(),
                 curve.points().len()
             ),
+            Self::Membrane { membrane, .. } => membrane.summary(),
         }
     }
 
@@ -69,6 +79,7 @@ impl Content {
     pub fn color(&self) -> usize {
         match self {
             Self::Curve { display, .. } => display.color,
+            Self::Membrane { display, .. } => display.color,
         }
     }
 
@@ -81,6 +92,7 @@ impl Content {
                     2 * (space.knots().len() + space.evaluation_knots().len()) + 6 * curve.points().len();
                 numbers * size_of::<f64>()
             }
+            Self::Membrane { membrane, .. } => membrane.byte_size(),
         }
     }
 }
@@ -90,6 +102,7 @@ impl Object {
     pub fn curve(&self) -> Option<&Nurbs<DVec2>> {
         match &self.content {
             Content::Curve { curve, .. } => Some(curve),
+            Content::Membrane { .. } => None,
         }
     }
 
@@ -97,6 +110,15 @@ impl Object {
     pub fn curve_display(&self) -> Option<&CurveDisplay> {
         match &self.content {
             Content::Curve { display, .. } => Some(display),
+            Content::Membrane { .. } => None,
+        }
+    }
+
+    /// The boundary value problem and how it is drawn, if the object is one.
+    pub fn membrane(&self) -> Option<(&Membrane, &MembraneDisplay)> {
+        match &self.content {
+            Content::Membrane { membrane, display } => Some((membrane, display)),
+            Content::Curve { .. } => None,
         }
     }
 

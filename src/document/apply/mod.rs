@@ -79,6 +79,7 @@ impl Document {
                         *shown = display.clone();
                         Ok(ShapeChange::None)
                     }
+                    _ => Err(not_a_curve(found)),
                 })
             }
             Edit::MovePoints { object, points, delta } => {
@@ -176,7 +177,7 @@ impl Document {
         change: impl FnOnce(&Nurbs<DVec2>) -> Result<(Nurbs<DVec2>, ShapeChange), EditError>,
     ) -> Result<Outcome, EditError> {
         self.change(id, |object| {
-            let Content::Curve { curve, .. } = &mut object.content;
+            let Content::Curve { curve, .. } = &mut object.content else { return Err(not_a_curve(object)) };
             let (new, shape) = change(curve)?;
             check_point_count(new.points().len())?;
             *curve = new;
@@ -214,7 +215,12 @@ fn check_content(content: &Content) -> Result<(), EditError> {
             display.check()?;
             check_point_count(curve.points().len())
         }
+        Content::Membrane { display, .. } => display.check(),
     }
+}
+
+fn not_a_curve(object: &Object) -> EditError {
+    EditError::OtherKind { object: object.id, kind: object.content.kind(), wanted: "curve" }
 }
 
 fn check_point_count(count: usize) -> Result<(), EditError> {

@@ -12,6 +12,7 @@
 //! data that this program does not understand would be lost with the next save.
 
 mod curve;
+mod membrane;
 mod writer;
 
 use std::collections::BTreeSet;
@@ -25,6 +26,7 @@ use crate::document::contents::Document;
 use crate::document::eye::EyeError;
 use crate::document::file_error::FileError;
 use crate::document::json::curve::CurveRecord;
+use crate::document::json::membrane::MembraneRecord;
 use crate::document::json::writer::Node;
 use crate::document::object::{Content, Object, ObjectId};
 use crate::document::storage::check_size;
@@ -66,6 +68,8 @@ struct ObjectRecord {
     visible: bool,
     #[serde(default)]
     curve: Option<CurveRecord>,
+    #[serde(default)]
+    membrane: Option<MembraneRecord>,
 }
 
 /// The text of a file.
@@ -113,6 +117,7 @@ fn entry(key: &str, value: Value) -> (String, Node) {
 fn object_node(object: &Object) -> Node {
     let content = match &object.content {
         Content::Curve { curve, display } => curve::node(curve, display),
+        Content::Membrane { membrane, display } => membrane::node(membrane, display),
     };
     Node::Record(vec![
         entry("id", json!(object.id)),
@@ -192,10 +197,13 @@ fn document_of(records: Vec<ObjectRecord>, next_id: u64) -> Result<Document, Fil
 
 fn object_of(record: ObjectRecord, place: &str) -> Result<Object, FileError> {
     check_name(&record.name).map_err(|error| FileError::value(format!("{place}.name"), error))?;
-    let kinds = [record.curve.map(|curve| curve.content(&format!("{place}.curve")))];
+    let kinds = [
+        record.curve.map(|curve| curve.content(&format!("{place}.curve"))),
+        record.membrane.map(|membrane| membrane.content(&format!("{place}.membrane"))),
+    ];
     let mut found = kinds.into_iter().flatten();
     let (Some(content), None) = (found.next(), found.next()) else {
-        return Err(FileError::value(place, "an object needs exactly one of the kinds curve"));
+        return Err(FileError::value(place, "an object needs exactly one of the kinds curve, membrane"));
     };
     Ok(Object { id: ObjectId(record.id), name: record.name, visible: record.visible, content: content? })
 }
