@@ -213,6 +213,13 @@ fn check_view(view: &View) -> Result<(), FileError> {
     if scale <= 0.0 {
         return Err(FileError::value("view.camera.scale", format!("{scale} is not positive")));
     }
+    for (room, camera) in &view.cameras {
+        let scale = camera.scale;
+        if scale <= 0.0 {
+            let place = format!("view.cameras.{room}.scale");
+            return Err(FileError::value(place, format!("{scale} is not positive")));
+        }
+    }
     let eye_error = |error: EyeError| FileError::value(format!("view.eye.{}", error.field), error);
     view.eye.check().map_err(eye_error)
 }

@@ -1,7 +1,7 @@
 //! The picture of a boundary value problem: what the canvas of the Finite elements room shows and the exporters write.
 //!
 //! Layers from back to front: the grid, the colours of the field, cells, isolines, the nodes of the quadrature, stream lines,
-//! the outline, the net, the nodes of the B-splines, the legend.
+//! the outline, the nodes of the B-splines, the net, the legend.
 
 mod field_layers;
 mod sampling;
@@ -52,7 +52,10 @@ pub fn compose(document: &Document, view: &View, theme: &Theme, viewport: &Viewp
     {
         match solve(membrane, &Unwatched) {
             Ok(solved) => {
-                picture.layers.extend(field(membrane, &solved, display, theme));
+                picture.layers.extend(field(&solved, display, theme));
+                if display.net {
+                    picture.push_layer("net", net(membrane, theme));
+                }
                 picture.layers.extend(legend(&solved, display, theme, viewport));
             }
             Err(error) => {
@@ -76,7 +79,7 @@ pub fn ground(view: &View, theme: &Theme, viewport: &Viewport) -> Picture {
 }
 
 /// The solution in the plane; the same at every zoom.
-pub fn field(membrane: &Membrane, solved: &Solved, display: &MembraneDisplay, theme: &Theme) -> Vec<Layer> {
+pub fn field(solved: &Solved, display: &MembraneDisplay, theme: &Theme) -> Vec<Layer> {
     let mut picture = Picture::new(None);
     let scale = scale(solved, display);
     if let (Some(scale), Ok(field)) = (scale, field_of(solved, display)) {
@@ -91,9 +94,6 @@ pub fn field(membrane: &Membrane, solved: &Solved, display: &MembraneDisplay, th
     picture.push_layer("quadrature", field_layers::quadrature(solved, display, theme));
     picture.push_layer("stream lines", field_layers::stream_lines(solved, display, theme));
     picture.push_layer("outline", field_layers::outline(solved, theme));
-    if display.net {
-        picture.push_layer("net", net(membrane, theme));
-    }
     picture.push_layer("nodes", field_layers::nodes(solved, display, theme));
     picture.layers
 }
