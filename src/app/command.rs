@@ -53,6 +53,24 @@ pub enum Command {
     Reverse,
     /// All weights 1.
     ResetWeights,
+    /// Colour the field, or only draw its lines.
+    ToggleField,
+    /// Lines of equal value.
+    ToggleIsolines,
+    /// The B-splines: inner ones filled, outer ones hollow.
+    ToggleNodes,
+    /// The cells of the grid, cut ones marked.
+    ToggleCells,
+    /// Where integrands are evaluated.
+    ToggleQuadrature,
+    /// Halve the grid width.
+    RefineElements,
+    /// Double the grid width.
+    CoarsenElements,
+    /// One degree up.
+    RaiseElementDegree,
+    /// One degree down.
+    LowerElementDegree,
     /// Fits everything into the canvas.
     Fit,
     /// Larger.
@@ -110,6 +128,8 @@ pub enum Menu {
     Edit,
     /// The selected curve.
     Curve,
+    /// The selected boundary value problem.
+    Problem,
     /// What is shown.
     View,
     /// Lessons and the stepper.
@@ -120,12 +140,14 @@ pub enum Menu {
 
 impl Menu {
     /// All menus.
-    pub const ALL: [Self; 6] = [Self::File, Self::Edit, Self::Curve, Self::View, Self::Lesson, Self::Help];
+    pub const ALL: [Self; 7] =
+        [Self::File, Self::Edit, Self::Curve, Self::Problem, Self::View, Self::Lesson, Self::Help];
 
     /// The only room where the menu is shown; `None` if it is everywhere.
     pub fn room(self) -> Option<Room> {
         match self {
             Self::Curve => Some(Room::Curves),
+            Self::Problem => Some(Room::Elements),
             _ => None,
         }
     }
@@ -136,6 +158,7 @@ impl Menu {
             Self::File => "File",
             Self::Edit => "Edit",
             Self::Curve => "Curve",
+            Self::Problem => "Problem",
             Self::View => "View",
             Self::Lesson => "Lesson",
             Self::Help => "Help",
@@ -149,7 +172,7 @@ const COMMAND_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND }
 
 impl Command {
     /// All commands, in the order of menus, palette and sheet.
-    pub const ALL: [Self; 46] = [
+    pub const ALL: [Self; 55] = [
         Self::New,
         Self::Open,
         Self::Save,
@@ -173,6 +196,15 @@ impl Command {
         Self::ToggleClosed,
         Self::Reverse,
         Self::ResetWeights,
+        Self::ToggleField,
+        Self::ToggleIsolines,
+        Self::ToggleNodes,
+        Self::ToggleCells,
+        Self::ToggleQuadrature,
+        Self::RefineElements,
+        Self::CoarsenElements,
+        Self::RaiseElementDegree,
+        Self::LowerElementDegree,
         Self::Fit,
         Self::ZoomIn,
         Self::ZoomOut,
@@ -230,6 +262,15 @@ impl Command {
             Self::ToggleClosed => ("Close or open", "Close an open curve, open a closed one"),
             Self::Reverse => ("Reverse direction", "Run through the curve the other way"),
             Self::ResetWeights => ("All weights 1", "Make the curve polynomial"),
+            Self::ToggleField => ("Colours", "Colour the field, or only draw its lines"),
+            Self::ToggleIsolines => ("Isolines", "Lines of equal value"),
+            Self::ToggleNodes => ("Nodes", "The B-splines: inner ones filled, outer ones hollow"),
+            Self::ToggleCells => ("Cells", "The cells of the grid, cut ones marked"),
+            Self::ToggleQuadrature => ("Quadrature nodes", "Where integrands are evaluated"),
+            Self::RefineElements => ("Finer grid", "Halve the grid width"),
+            Self::CoarsenElements => ("Coarser grid", "Double the grid width"),
+            Self::RaiseElementDegree => ("Raise the degree of the elements", "One degree up"),
+            Self::LowerElementDegree => ("Lower the degree of the elements", "One degree down"),
             Self::Fit => ("Fit", "Show everything"),
             Self::ZoomIn => ("Zoom in", "Larger"),
             Self::ZoomOut => ("Zoom out", "Smaller"),
@@ -279,6 +320,15 @@ impl Command {
             Self::ElevateDegree => (NONE, Key::E),
             Self::ReduceDegree => (Modifiers::SHIFT, Key::E),
             Self::ToggleClosed => (NONE, Key::C),
+            Self::ToggleField => (NONE, Key::U),
+            Self::ToggleIsolines => (NONE, Key::I),
+            Self::ToggleNodes => (NONE, Key::N),
+            Self::ToggleCells => (NONE, Key::C),
+            Self::ToggleQuadrature => (NONE, Key::Q),
+            Self::RefineElements => (NONE, Key::R),
+            Self::CoarsenElements => (Modifiers::SHIFT, Key::R),
+            Self::RaiseElementDegree => (NONE, Key::E),
+            Self::LowerElementDegree => (Modifiers::SHIFT, Key::E),
             Self::Fit => (NONE, Key::F),
             Self::ZoomIn => (COMMAND, Key::Plus),
             Self::ZoomOut => (COMMAND, Key::Minus),
@@ -347,6 +397,15 @@ impl Command {
             | Self::ToggleClosed
             | Self::Reverse
             | Self::ResetWeights => Menu::Curve,
+            Self::ToggleField
+            | Self::ToggleIsolines
+            | Self::ToggleNodes
+            | Self::ToggleCells
+            | Self::ToggleQuadrature
+            | Self::RefineElements
+            | Self::CoarsenElements
+            | Self::RaiseElementDegree
+            | Self::LowerElementDegree => Menu::Problem,
             Self::StepperPlay
             | Self::StepForward
             | Self::StepBack

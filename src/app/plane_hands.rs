@@ -73,7 +73,9 @@ pub(crate) fn move_camera(
 pub(crate) fn pressed_at(ui: &Ui) -> Option<Pos2> {
     ui.input(|input| {
         input.events.iter().find_map(|event| match *event {
-            egui::Event::PointerButton { pos, button: PointerButton::Primary, pressed: true, .. } => Some(pos),
+            egui::Event::PointerButton { pos, button: PointerButton::Primary, pressed: true, .. } => {
+                Some(pos)
+            }
             _ => None,
         })
     })
@@ -85,12 +87,7 @@ pub(crate) fn fine_step(viewport: &Viewport) -> f64 {
 }
 
 /// The way of a drag that began at `grabbed`: with Shift along one axis, with Ctrl to a line of the grid nearby.
-pub(crate) fn constrained(
-    mut delta: DVec2,
-    grabbed: DVec2,
-    viewport: &Viewport,
-    keys: Modifiers,
-) -> DVec2 {
+pub(crate) fn constrained(mut delta: DVec2, grabbed: DVec2, viewport: &Viewport, keys: Modifiers) -> DVec2 {
     if keys.shift {
         // Along the axis that the pointer has followed farther.
         if delta.x.abs() >= delta.y.abs() { delta.y = 0.0 } else { delta.x = 0.0 }

@@ -12,16 +12,19 @@ pub enum Room {
     /// Plane curves.
     #[default]
     Curves,
+    /// Membranes and flows with finite elements.
+    Elements,
 }
 
 impl Room {
     /// All rooms.
-    pub const ALL: [Self; 1] = [Self::Curves];
+    pub const ALL: [Self; 2] = [Self::Curves, Self::Elements];
 
     /// The name on the tab.
     pub fn title(self) -> &'static str {
         match self {
             Self::Curves => "Curves",
+            Self::Elements => "Finite elements",
         }
     }
 
@@ -29,6 +32,7 @@ impl Room {
     pub fn key(self) -> &'static str {
         match self {
             Self::Curves => "",
+            Self::Elements => crate::figure::elements::WORKSPACE,
         }
     }
 
@@ -41,6 +45,7 @@ impl Room {
     pub fn of(content: &Content) -> Self {
         match content {
             Content::Curve { .. } => Self::Curves,
+            Content::Membrane { .. } => Self::Elements,
         }
     }
 }
@@ -81,7 +86,7 @@ pub(crate) trait Workspace {
 
 /// The workspaces of all rooms, in the order of [`Room::ALL`].
 pub(crate) fn all() -> Vec<Box<dyn Workspace>> {
-    vec![Box::new(crate::app::curves::Curves::default())]
+    vec![Box::new(crate::app::curves::Curves::default()), Box::new(crate::app::elements::Elements::default())]
 }
 
 #[cfg(test)]

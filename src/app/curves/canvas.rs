@@ -1,8 +1,6 @@
 //! The canvas: camera, picture, handles, and the hands on them.
 
-use eframe::egui::{
-    self, Align2, CursorIcon, Pos2, Rect, Sense, Stroke, StrokeKind, Ui, vec2,
-};
+use eframe::egui::{self, Align2, CursorIcon, Pos2, Rect, Sense, Stroke, StrokeKind, Ui, vec2};
 use glam::DVec2;
 
 use crate::app::command::Command;

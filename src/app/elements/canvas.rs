@@ -269,8 +269,7 @@ fn paint(
                 && painted.theme == theme.name
         });
         if !fresh {
-            let picture =
-                Picture { background: None, layers: field(solved, &subject.display, theme) };
+            let picture = Picture { background: None, layers: field(solved, &subject.display, theme) };
             let display = subject.display.clone();
             let solved = Arc::clone(solved);
             room.canvas.painted = Some(Painted { solved, display, theme: theme.name, picture });
@@ -283,8 +282,7 @@ fn paint(
         overlay("net", net(&subject.membrane, theme));
     }
     if let Some(solved) = &solved {
-        let picture =
-            Picture { background: None, layers: legend(solved, &subject.display, theme, viewport) };
+        let picture = Picture { background: None, layers: legend(solved, &subject.display, theme, viewport) };
         paint_picture(&picture, viewport, rect, painter);
     }
     paint_handles(room, subject, lab, (viewport, rect), pointer, painter);
@@ -358,7 +356,11 @@ fn paint_handles(
         if let Some((_, from)) = found.shape.handles().first()
             && let Shape::HalfPlane { normal, .. } = &found.shape
         {
-            painter.arrow(place(*from), place(*from + *normal) - place(*from), Stroke::new(1.5, color32(theme.text)));
+            painter.arrow(
+                place(*from),
+                place(*from + *normal) - place(*from),
+                Stroke::new(1.5, color32(theme.text)),
+            );
         }
     }
     for (id, _, at) in subject.membrane.handles() {
@@ -399,7 +401,8 @@ fn announce(subject: &Subject, (viewport, rect): (&Viewport, Rect), ui: &Ui) {
 
 /// Progress with Cancel, or why there is no solution, at the lower edge.
 fn show_state(room: &mut Elements, rect: Rect, lab: &Lab, ui: &mut Ui) {
-    let strip = Rect::from_min_size(rect.left_bottom() + vec2(44.0, -64.0), vec2(330.0, 26.0)).intersect(rect);
+    let strip =
+        Rect::from_min_size(rect.left_bottom() + vec2(44.0, -64.0), vec2(330.0, 26.0)).intersect(rect);
     let mut state = ui.new_child(UiBuilder::new().max_rect(strip));
     match room.live.progress() {
         Some((part, seconds)) => {
@@ -417,7 +420,10 @@ fn show_state(room: &mut Elements, rect: Rect, lab: &Lab, ui: &mut Ui) {
         }
         None if room.live.is_cancelled() => {
             state.horizontal(|ui| {
-                ui.label(RichText::new("Stopped; the picture is that of before.").color(color32(lab.theme.warning)));
+                ui.label(
+                    RichText::new("Stopped; the picture is that of before.")
+                        .color(color32(lab.theme.warning)),
+                );
                 if ui.button("Solve").clicked() {
                     room.live.again();
                 }
@@ -442,7 +448,9 @@ fn show_empty(rect: Rect, lab: &mut Lab, ui: &mut Ui) {
         ui.painter().rect_filled(area.expand(14.0), 8.0, color32(lab.theme.panel));
         ui.vertical_centered(|ui| {
             ui.label(RichText::new("A membrane over a domain").heading());
-            ui.label(RichText::new("It is held at the boundary, and a load bends it. Start with\u{2026}").weak());
+            ui.label(
+                RichText::new("It is held at the boundary, and a load bends it. Start with\u{2026}").weak(),
+            );
             ui.add_space(6.0);
             add::preset_buttons(width, lab, ui);
         });
@@ -461,4 +469,3 @@ fn point_cursor(canvas: &Canvas, target: Target, pointer: Option<Pos2>, ui: &Ui)
     };
     ui.set_cursor_icon(icon);
 }
-

@@ -75,7 +75,8 @@ impl Gesture {
             let marquee = Rect::from_two_pos(self.from, pointer);
             let inside = |at: DVec2| marquee.contains(screen_from_world(viewport, rect, at));
             let handles = self.start.handles().into_iter();
-            let found: BTreeSet<HandleId> = handles.filter(|(.., at)| inside(*at)).map(|(id, ..)| id).collect();
+            let found: BTreeSet<HandleId> =
+                handles.filter(|(.., at)| inside(*at)).map(|(id, ..)| id).collect();
             *selected = if keys.shift { self.before.union(&found).copied().collect() } else { found };
             return;
         }

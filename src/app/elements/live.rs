@@ -110,7 +110,11 @@ impl Study {
     }
 
     /// The study of exactly this problem.
-    pub(super) fn found(&self, object: ObjectId, membrane: &Membrane) -> Option<&Result<ErrorStudy, SolveError>> {
+    pub(super) fn found(
+        &self,
+        object: ObjectId,
+        membrane: &Membrane,
+    ) -> Option<&Result<ErrorStudy, SolveError>> {
         let (request, result) = self.found.as_ref()?;
         (request.0 == object && request.1 == *membrane).then_some(result)
     }

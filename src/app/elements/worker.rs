@@ -113,7 +113,7 @@ impl<Q, A> Shared<Q, A> {
     }
 }
 
-fn serve<Q, A>(shared: &Shared<Q, A>, work: fn(&Q, &dyn Watcher) -> A) {
+fn serve<Q: Send, A: Send>(shared: &Shared<Q, A>, work: fn(&Q, &dyn Watcher) -> A) {
     loop {
         let mut desk = shared.desk();
         let (request, ctx) = loop {

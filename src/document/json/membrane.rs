@@ -79,8 +79,7 @@ const SIDES: [SideName; 4] = [SideName::Left, SideName::Right, SideName::Bottom,
 
 pub(super) fn node(membrane: &Membrane, display: &MembraneDisplay) -> Node {
     let setting = membrane.setting();
-    let mut entries =
-        vec![entry("degree", json!(setting.degree)), entry("load", json!(setting.load.text()))];
+    let mut entries = vec![entry("degree", json!(setting.degree)), entry("load", json!(setting.load.text()))];
     entries.extend(setting.exact.as_ref().map(|exact| entry("exact", json!(exact.text()))));
     entries.push(entry("diffusion", json!(setting.diffusion)));
     entries.push(entry("reaction", json!(setting.reaction)));

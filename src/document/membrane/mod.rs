@@ -224,9 +224,12 @@ impl Membrane {
     pub fn fixed_sides(&self) -> Vec<PatchSide> {
         match &self.setting.region {
             Region::Parts { .. } => PatchSide::ALL.to_vec(),
-            Region::Patch { fixed, .. } => {
-                PatchSide::ALL.into_iter().zip(fixed).filter(|(_, fixed)| **fixed).map(|(side, _)| side).collect()
-            }
+            Region::Patch { fixed, .. } => PatchSide::ALL
+                .into_iter()
+                .zip(fixed)
+                .filter(|(_, fixed)| **fixed)
+                .map(|(side, _)| side)
+                .collect(),
             Region::Channel { .. } => Vec::new(),
         }
     }
@@ -269,7 +272,8 @@ impl Membrane {
         if let Some(patch) = self.patch() {
             let mut points = patch.points().to_vec();
             for &HandleId { index, .. } in handles {
-                *points.get_mut(index).ok_or(MembraneError::Missing { what: "control point", index })? += delta;
+                *points.get_mut(index).ok_or(MembraneError::Missing { what: "control point", index })? +=
+                    delta;
             }
             let patch = PlanePatch::new(patch.spaces().clone(), points, patch.weights().to_vec())?;
             return self.with_patch(patch);
@@ -381,10 +385,8 @@ mod tests {
         assert!(refused(|s| s.degree = 6).contains("degree is 6"), "degree 6");
         assert!(refused(|s| s.diffusion = f64::NAN).contains("coefficient a is NaN"), "NaN");
         assert!(refused(|s| s.reaction = -1.0).contains("coefficient c is -1"), "negative");
-        let bad = |radius| Part {
-            operation: Operation::Union,
-            shape: Shape::Disc { center: DVec2::ZERO, radius },
-        };
+        let bad =
+            |radius| Part { operation: Operation::Union, shape: Shape::Disc { center: DVec2::ZERO, radius } };
         let error = membrane.with_parts(|parts| parts.push(bad(-1.0))).unwrap_err();
         assert!(error.to_string().starts_with("part 4:"), "{error}");
         let many = membrane.with_parts(|parts| parts.extend((0..50).map(|_| bad(1.0)))).unwrap_err();

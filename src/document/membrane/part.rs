@@ -257,7 +257,10 @@ mod tests {
     fn every_handle_follows_the_pointer_and_stays_where_it_is_put() {
         for shape in shapes() {
             for (index, (name, at)) in shape.handles().into_iter().enumerate() {
-                assert!(shape.with_handle(index, at).handles()[index].1.distance(at) < 1e-12, "{name} at rest");
+                assert!(
+                    shape.with_handle(index, at).handles()[index].1.distance(at) < 1e-12,
+                    "{name} at rest"
+                );
                 let to = at + DVec2::new(0.25, 0.125);
                 let now = shape.with_handle(index, to).handles()[index].1;
                 let follows = match (&shape, index) {

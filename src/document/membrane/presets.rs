@@ -86,8 +86,7 @@ impl MembranePreset {
                 let cap = part(Operation::Union, disc(0.0, 0.0, 2.0));
                 let half = Shape::HalfPlane { point: DVec2::ZERO, normal: at(0.0, 0.8) };
                 let stem = Shape::Ellipse { center: DVec2::ZERO, half_axes: at(1.0, 2.0), angle: 0.0 };
-                let parts =
-                    vec![cap, part(Operation::Intersection, half), part(Operation::Union, stem)];
+                let parts = vec![cap, part(Operation::Intersection, half), part(Operation::Union, stem)];
                 (on_parts(parts, 0.25), "1", None)
             }
             Self::Ring => {
@@ -102,8 +101,14 @@ impl MembranePreset {
                 (on_parts(parts, 0.25), "4", Some("(1 - x^2 - y^2) exp(x - y/2)"))
             }
             Self::LShape => {
-                let vertices =
-                    vec![at(-1.0, -1.0), at(0.0, -1.0), at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0), at(-1.0, 1.0)];
+                let vertices = vec![
+                    at(-1.0, -1.0),
+                    at(0.0, -1.0),
+                    at(0.0, 0.0),
+                    at(1.0, 0.0),
+                    at(1.0, 1.0),
+                    at(-1.0, 1.0),
+                ];
                 (on_parts(vec![part(Operation::Union, Shape::Polygon { vertices })], 0.125), "1", None)
             }
             Self::BookPatch => {

@@ -26,10 +26,10 @@ pub(super) fn isolines(
     theme: &Theme,
 ) -> Vec<Item> {
     let count = display.isolines;
-    let level = |k: usize| scale.low() + (scale.high() - scale.low()) * (k as f64 + 1.0) / (count as f64 + 1.0);
+    let level =
+        |k: usize| scale.low() + (scale.high() - scale.low()) * (k as f64 + 1.0) / (count as f64 + 1.0);
     let lines = (0..count).map(level).flat_map(|level| {
-        let color =
-            if display.fill { theme.background.with_opacity(0.75) } else { scale.color(level) };
+        let color = if display.fill { theme.background.with_opacity(0.75) } else { scale.color(level) };
         let stroke = theme.stroke(color, 1.0);
         field.isolines(level).into_iter().map(move |line| Item::Path(line.path(stroke.clone())))
     });

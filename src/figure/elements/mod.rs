@@ -215,7 +215,8 @@ mod tests {
     #[test]
     fn the_mushroom_shows_its_nodes_by_class_and_its_cells() {
         let all = picture(MembranePreset::Mushroom, |display| display.quadrature = true);
-        for layer in ["grid", "field", "isolines", "cells", "quadrature", "outline", "net", "nodes", "legend"] {
+        for layer in ["grid", "field", "isolines", "cells", "quadrature", "outline", "net", "nodes", "legend"]
+        {
             assert!(count(&all, layer) > 0, "{layer}");
         }
         let solved = solve(&MembranePreset::Mushroom.membrane(), &Unwatched).unwrap();
@@ -236,7 +237,8 @@ mod tests {
         for item in &lines.items {
             let Item::Path(path) = item else { panic!("{item:?}") };
             for segment in &path.segments {
-                let (crate::figure::picture::Segment::Move(at) | crate::figure::picture::Segment::Line(at)) = segment
+                let (crate::figure::picture::Segment::Move(at) | crate::figure::picture::Segment::Line(at)) =
+                    segment
                 else {
                     continue;
                 };

@@ -190,7 +190,11 @@ pub(super) fn check_patch_size(membrane: &Membrane, divisions: usize) -> Result<
         membrane.patch().map_or(0, |patch| patch.spaces()[axis].breaks().len() * degree * divisions) as f64
     };
     let value = size(0) * size(1);
-    if value <= 4.0 * (MAX_FUNCTIONS * degree * degree) as f64 { Ok(()) } else { Err(SolveError::TooLarge { value }) }
+    if value <= 4.0 * (MAX_FUNCTIONS * degree * degree) as f64 {
+        Ok(())
+    } else {
+        Err(SolveError::TooLarge { value })
+    }
 }
 
 /// Solves the problem.
@@ -229,8 +233,7 @@ pub fn solve(membrane: &Membrane, watcher: &dyn Watcher) -> Result<Solved, Solve
         }
         Region::Channel { patch, inflow, divisions } => {
             check_patch_size(membrane, *divisions)?;
-            let flow =
-                PotentialFlow::solve(patch, setting.degree, [*divisions; 2], *inflow, None, watcher)?;
+            let flow = PotentialFlow::solve(patch, setting.degree, [*divisions; 2], *inflow, None, watcher)?;
             let (samples, energy) = (of_patch(flow.potential())?, flow.potential().energy());
             (Solution::Flow(flow), samples, energy)
         }

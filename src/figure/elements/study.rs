@@ -7,8 +7,8 @@ use glam::DVec2;
 
 use crate::core::domain::Jet;
 use crate::core::finite_element::{
-    Discretisation, ErrorNorms, IsogeometricSpace, PatchSide, PlanePatch, Problem,
-    SideFlux, Weight, convergence_rates, solve_patch, solve_problem,
+    Discretisation, ErrorNorms, IsogeometricSpace, PatchSide, PlanePatch, Problem, SideFlux, Weight,
+    convergence_rates, solve_patch, solve_problem,
 };
 use crate::core::formula::Formula;
 use crate::core::progress::{Part, Watcher};
@@ -115,7 +115,8 @@ pub fn error_study(membrane: &Membrane, watcher: &dyn Watcher) -> Result<ErrorSt
         }
     }
     let widths: Vec<f64> = rows.iter().map(|row| row.width).collect();
-    let rates = |of: fn(&StudyLine) -> f64| convergence_rates(&widths, &rows.iter().map(of).collect::<Vec<_>>());
+    let rates =
+        |of: fn(&StudyLine) -> f64| convergence_rates(&widths, &rows.iter().map(of).collect::<Vec<_>>());
     let (l2_rates, h1_rates) = (rates(|row| row.l2), rates(|row| row.h1));
     Ok(ErrorStudy { l2_rates, h1_rates, rows, note })
 }
@@ -210,7 +211,8 @@ mod tests {
     fn a_solution_that_does_not_vanish_on_the_boundary_is_refused() {
         for preset in [MembranePreset::Disc, MembranePreset::BookPatch] {
             let membrane = preset.membrane();
-            let wrong = membrane.with(|s| s.exact = Some(read_formula("1 + x^2", "solution").unwrap())).unwrap();
+            let wrong =
+                membrane.with(|s| s.exact = Some(read_formula("1 + x^2", "solution").unwrap())).unwrap();
             let error = error_study(&wrong, &Unwatched).unwrap_err();
             assert!(matches!(error, SolveError::NotZero { .. }), "{}: {error}", preset.title());
         }
