@@ -103,6 +103,24 @@ pub enum Command {
     ReverseV,
     /// Perspective or parallel projection.
     ToggleParallel,
+    /// Colour the field, or only draw its lines.
+    ToggleField,
+    /// Lines of equal value.
+    ToggleIsolines,
+    /// The B-splines: inner ones filled, outer ones hollow.
+    ToggleNodes,
+    /// The cells of the grid, cut ones marked.
+    ToggleCells,
+    /// Where integrands are evaluated.
+    ToggleQuadrature,
+    /// Halve the grid width.
+    RefineElements,
+    /// Double the grid width.
+    CoarsenElements,
+    /// One degree up.
+    RaiseElementDegree,
+    /// One degree down.
+    LowerElementDegree,
     /// Fits everything into the canvas.
     Fit,
     /// Larger.
@@ -164,6 +182,8 @@ pub enum Menu {
     Surface,
     /// The selected approximation.
     Approximation,
+    /// The selected boundary value problem.
+    Problem,
     /// What is shown.
     View,
     /// Lessons and the stepper.
@@ -174,12 +194,13 @@ pub enum Menu {
 
 impl Menu {
     /// All menus.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::File,
         Self::Edit,
         Self::Curve,
         Self::Approximation,
         Self::Surface,
+        Self::Problem,
         Self::View,
         Self::Lesson,
         Self::Help,
@@ -191,6 +212,7 @@ impl Menu {
             Self::Curve => Some(Room::Curves),
             Self::Surface => Some(Room::Surfaces),
             Self::Approximation => Some(Room::Approximation),
+            Self::Problem => Some(Room::Elements),
             _ => None,
         }
     }
@@ -203,6 +225,7 @@ impl Menu {
             Self::Curve => "Curve",
             Self::Surface => "Surface",
             Self::Approximation => "Approximation",
+            Self::Problem => "Problem",
             Self::View => "View",
             Self::Lesson => "Lesson",
             Self::Help => "Help",
@@ -216,7 +239,7 @@ const COMMAND_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND }
 
 impl Command {
     /// All commands, in the order of menus, palette and sheet.
-    pub const ALL: [Self; 71] = [
+    pub const ALL: [Self; 80] = [
         Self::New,
         Self::Open,
         Self::Save,
@@ -265,6 +288,15 @@ impl Command {
         Self::ReverseU,
         Self::ReverseV,
         Self::ToggleParallel,
+        Self::ToggleField,
+        Self::ToggleIsolines,
+        Self::ToggleNodes,
+        Self::ToggleCells,
+        Self::ToggleQuadrature,
+        Self::RefineElements,
+        Self::CoarsenElements,
+        Self::RaiseElementDegree,
+        Self::LowerElementDegree,
         Self::Fit,
         Self::ZoomIn,
         Self::ZoomOut,
@@ -361,6 +393,15 @@ impl Command {
             Self::ReverseU => ("Reverse u", "Run through u the other way; normals turn to the other side"),
             Self::ReverseV => ("Reverse v", "Run through v the other way; normals turn to the other side"),
             Self::ToggleParallel => ("Perspective", "Perspective or parallel projection"),
+            Self::ToggleField => ("Colours", "Colour the field, or only draw its lines"),
+            Self::ToggleIsolines => ("Isolines", "Lines of equal value"),
+            Self::ToggleNodes => ("Nodes", "The B-splines: inner ones filled, outer ones hollow"),
+            Self::ToggleCells => ("Cells", "The cells of the grid, cut ones marked"),
+            Self::ToggleQuadrature => ("Quadrature nodes", "Where integrands are evaluated"),
+            Self::RefineElements => ("Finer grid", "Halve the grid width"),
+            Self::CoarsenElements => ("Coarser grid", "Double the grid width"),
+            Self::RaiseElementDegree => ("Raise the degree of the elements", "One degree up"),
+            Self::LowerElementDegree => ("Lower the degree of the elements", "One degree down"),
             Self::Fit => ("Fit", "Show everything"),
             Self::ZoomIn => ("Zoom in", "Larger"),
             Self::ZoomOut => ("Zoom out", "Smaller"),
@@ -423,6 +464,15 @@ impl Command {
             Self::ToggleValences => (NONE, Key::B),
             Self::CycleColoring => (NONE, Key::U),
             Self::ToggleParallel => (NONE, Key::O),
+            Self::ToggleField => (NONE, Key::U),
+            Self::ToggleIsolines => (NONE, Key::I),
+            Self::ToggleNodes => (NONE, Key::N),
+            Self::ToggleCells => (NONE, Key::C),
+            Self::ToggleQuadrature => (NONE, Key::Q),
+            Self::RefineElements => (NONE, Key::R),
+            Self::CoarsenElements => (Modifiers::SHIFT, Key::R),
+            Self::RaiseElementDegree => (NONE, Key::E),
+            Self::LowerElementDegree => (Modifiers::SHIFT, Key::E),
             Self::Fit => (NONE, Key::F),
             Self::ZoomIn => (COMMAND, Key::Plus),
             Self::ZoomOut => (COMMAND, Key::Minus),
@@ -531,6 +581,15 @@ impl Command {
             Self::SelectDataTool | Self::AddPointTool | Self::SampleFunction | Self::CycleErrorPlot => {
                 Menu::Approximation
             }
+            Self::ToggleField
+            | Self::ToggleIsolines
+            | Self::ToggleNodes
+            | Self::ToggleCells
+            | Self::ToggleQuadrature
+            | Self::RefineElements
+            | Self::CoarsenElements
+            | Self::RaiseElementDegree
+            | Self::LowerElementDegree => Menu::Problem,
             Self::StepperPlay
             | Self::StepForward
             | Self::StepBack

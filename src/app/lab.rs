@@ -148,6 +148,8 @@ pub struct Lab {
     pub commands: Vec<Command>,
     /// Size of the canvas in points in the last frame.
     pub canvas_size: DVec2,
+    /// Whether long work is done within the frame instead of beside it: for tests, which then need not wait.
+    pub at_once: bool,
 }
 
 impl Lab {
@@ -172,6 +174,7 @@ impl Lab {
             messages: Vec::new(),
             commands: Vec::new(),
             canvas_size: DVec2::new(800.0, 600.0),
+            at_once: false,
         }
     }
 

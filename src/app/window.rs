@@ -92,7 +92,9 @@ impl LabApp {
 
     /// The program with the first scene, without the files and preferences of whoever runs the tests.
     pub fn for_tests(ctx: &egui::Context) -> Self {
-        Self::in_directories(ctx, None, Directories::none())
+        let mut app = Self::in_directories(ctx, None, Directories::none());
+        app.lab.at_once = true;
+        app
     }
 
     /// The shared state.

@@ -16,11 +16,13 @@ pub enum Room {
     Approximation,
     /// Surfaces and subdivided meshes in space.
     Surfaces,
+    /// Membranes and flows with finite elements.
+    Elements,
 }
 
 impl Room {
     /// All rooms.
-    pub const ALL: [Self; 3] = [Self::Curves, Self::Approximation, Self::Surfaces];
+    pub const ALL: [Self; 4] = [Self::Curves, Self::Approximation, Self::Surfaces, Self::Elements];
 
     /// The name on the tab.
     pub fn title(self) -> &'static str {
@@ -28,6 +30,7 @@ impl Room {
             Self::Curves => "Curves",
             Self::Surfaces => "Surfaces",
             Self::Approximation => "Approximation",
+            Self::Elements => "Finite elements",
         }
     }
 
@@ -37,6 +40,7 @@ impl Room {
             Self::Curves => "",
             Self::Surfaces => crate::figure::surfaces::WORKSPACE,
             Self::Approximation => crate::figure::approximation::ROOM,
+            Self::Elements => crate::figure::elements::WORKSPACE,
         }
     }
 
@@ -51,6 +55,7 @@ impl Room {
             Content::Curve { .. } => Self::Curves,
             Content::Surface(_) | Content::Mesh(_) => Self::Surfaces,
             Content::Approximation(_) => Self::Approximation,
+            Content::Membrane { .. } => Self::Elements,
         }
     }
 }
@@ -95,6 +100,7 @@ pub(crate) fn all() -> Vec<Box<dyn Workspace>> {
         Box::new(crate::app::curves::Curves::default()),
         Box::new(crate::app::approximation::ApproximationRoom::default()),
         Box::new(crate::app::surfaces::Surfaces::default()),
+        Box::new(crate::app::elements::Elements::default()),
     ]
 }
 

@@ -15,6 +15,7 @@ mod eye;
 mod file_error;
 mod history;
 mod json;
+mod membrane;
 mod mesh;
 mod object;
 mod outcome;
@@ -36,6 +37,10 @@ pub use eye::{EyeError, EyeState};
 pub use file_error::FileError;
 pub use history::{DEFAULT_BUDGET, History};
 pub use json::{EXTENSION, FORMAT_VERSION, from_json, to_json};
+pub use membrane::{
+    FieldColors, HandleId, Membrane, MembraneDisplay, MembraneError, MembranePreset, Operation, Part, Region,
+    Setting, Shape, Shown, VARIABLES, read_formula,
+};
 pub use mesh::{MeshDisplay, MeshObject};
 pub use object::{Content, Object, ObjectId};
 pub use outcome::{Outcome, ShapeChange};

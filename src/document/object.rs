@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::core::spline_curve::Nurbs;
 use crate::document::approximation::Approximation;
 use crate::document::display::CurveDisplay;
+use crate::document::membrane::{Membrane, MembraneDisplay};
 use crate::document::mesh::MeshObject;
 use crate::document::surface::SurfaceObject;
 
@@ -51,6 +52,13 @@ pub enum Content {
     Mesh(MeshObject),
     /// Data, a function, and methods that approximate them.
     Approximation(Approximation),
+    /// A boundary value problem.
+    Membrane {
+        /// The problem.
+        membrane: Membrane,
+        /// How it and its solution are drawn.
+        display: MembraneDisplay,
+    },
 }
 
 impl Content {
@@ -61,6 +69,7 @@ impl Content {
             Self::Surface(_) => "surface",
             Self::Mesh(_) => "mesh",
             Self::Approximation(_) => "approximation",
+            Self::Membrane { .. } => "membrane",
         }
     }
 
@@ -85,6 +94,7 @@ impl Content {
                 format!("mesh with {v} vertices, {e} edges, {f} faces, level {}", object.level())
             }
             Self::Approximation(approximation) => approximation.summary(),
+            Self::Membrane { membrane, .. } => membrane.summary(),
         }
     }
 
@@ -97,6 +107,7 @@ impl Content {
             Self::Approximation(approximation) => {
                 approximation.methods().first().map_or(0, |method| method.color)
             }
+            Self::Membrane { display, .. } => display.color,
         }
     }
 
@@ -107,6 +118,7 @@ impl Content {
             Self::Surface(object) => object.surface().points().len(),
             Self::Mesh(object) => object.cage().positions().len(),
             Self::Approximation(approximation) => approximation.len(),
+            Self::Membrane { .. } => 0,
         }
     }
 
@@ -126,6 +138,7 @@ impl Content {
                 24 * (v + e) + 32 * f
             }
             Self::Approximation(approximation) => approximation.byte_size(),
+            Self::Membrane { membrane, .. } => membrane.byte_size(),
         }
     }
 }
@@ -167,6 +180,14 @@ impl Object {
     pub fn approximation(&self) -> Option<&Approximation> {
         match &self.content {
             Content::Approximation(approximation) => Some(approximation),
+            _ => None,
+        }
+    }
+
+    /// The boundary value problem and how it is drawn, if the object is one.
+    pub fn membrane(&self) -> Option<(&Membrane, &MembraneDisplay)> {
+        match &self.content {
+            Content::Membrane { membrane, display } => Some((membrane, display)),
             _ => None,
         }
     }

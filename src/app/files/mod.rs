@@ -427,7 +427,7 @@ impl Files {
             }
         };
         let (document, view, theme) = (lab.history.document().clone(), view_to_save(lab), lab.theme.clone());
-        let camera = lab.view.camera;
+        let camera = lab.view.room_camera();
         let viewport = Viewport { center: camera.center, scale: camera.scale, size: lab.canvas_size };
         let (send, receive) = mpsc::channel();
         let write = move || {
