@@ -16,6 +16,7 @@ mod elements;
 mod file_dialog;
 mod files;
 mod formula_view;
+mod hands;
 mod icon;
 mod inspector;
 mod knot_line;
@@ -28,9 +29,7 @@ mod object_list;
 mod painter;
 mod palette;
 mod path_dialog;
-mod plane_hands;
 mod preferences;
-#[allow(dead_code, unused_imports, reason = "the rooms of space use it")]
 mod scene_view;
 mod shortcut_sheet;
 mod smoke_log;
@@ -42,6 +41,7 @@ mod test_bench;
 mod text_field;
 mod toolbar;
 mod window;
+mod worker;
 pub mod workspace;
 
 pub use window::{LabApp, run};

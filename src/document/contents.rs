@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use crate::core::spline_curve::Nurbs;
 use crate::document::approximation::Approximation;
-use crate::document::object::{Object, ObjectId};
+use crate::document::object::{Content, Object, ObjectId};
 
 /// What is saved and undone: objects in drawing order, the first one lowest.
 ///
@@ -63,17 +63,15 @@ impl Document {
     /// value problems; weights are positive, so the curves lie inside. `None` if none is visible.
     pub fn bounding_box(&self) -> Option<(DVec2, DVec2)> {
         let visible = self.objects.iter().filter(|object| object.visible);
-        let points = visible.flat_map(|object| {
-            let curve = object.curve().map(|curve| curve.points().to_vec());
-            let region = object.membrane().and_then(|(membrane, _)| membrane.bounding_box());
-            curve.or(region.map(|(low, high)| vec![low, high])).unwrap_or_default()
+        let boxes = visible.filter_map(|object| match &object.content {
+            Content::Curve { curve, .. } => {
+                let points = || curve.points().iter().copied();
+                points().reduce(DVec2::min).zip(points().reduce(DVec2::max))
+            }
+            Content::Membrane { membrane, .. } => membrane.bounding_box(),
+            Content::Approximation(_) | Content::Surface(_) | Content::Mesh(_) => None,
         });
-        points.fold(None, |bounds, point| {
-            Some(
-                bounds
-                    .map_or((point, point), |(low, high): (DVec2, DVec2)| (low.min(point), high.max(point))),
-            )
-        })
+        boxes.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
     }
 
     /// Index of the object in [`Self::objects`].

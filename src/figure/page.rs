@@ -4,7 +4,7 @@ use crate::document::{Document, View};
 use crate::figure::error::FigureError;
 use crate::figure::picture::{Picture, Viewport};
 use crate::figure::theme::Theme;
-use crate::figure::{approximation, composition, surfaces};
+use crate::figure::{approximation, composition, elements, surfaces};
 
 /// Whether the page of `view` shows plots or space, whose height does not follow from the box of the plane's objects.
 pub fn has_free_height(document: &Document, view: &View) -> bool {
@@ -25,6 +25,9 @@ pub fn page(
     if surfaces::is_shown(view) {
         return surfaces::compose(document, view, theme, viewport.size);
     }
-    let plots = approximation::page(document, view, theme, viewport.size);
-    Ok(plots.unwrap_or_else(|| (composition::compose(document, view, theme, viewport), *viewport)))
+    if let Some(plots) = approximation::page(document, view, theme, viewport.size) {
+        return Ok(plots);
+    }
+    let compose = if elements::is_shown(document, view) { elements::compose } else { composition::compose };
+    Ok((compose(document, view, theme, viewport), *viewport))
 }

@@ -2,18 +2,18 @@
 
 use std::sync::Arc;
 
-use eframe::egui::{self, Align2, CursorIcon, Key, PointerButton, Pos2, Rect, Sense, Stroke, StrokeKind, Ui};
+use eframe::egui::{self, Align2, CursorIcon, Key, Pos2, Rect, Sense, Stroke, StrokeKind, Ui};
 use glam::DVec2;
 
-use crate::app::approximation::changes::{change, set, show_everything, with_knots};
+use crate::app::approximation::changes::{change, set, with_knots};
 use crate::app::approximation::desk::Desk;
 use crate::app::approximation::gesture::{Gesture, fine_steps, moved_knot, screen_box, snapped};
 use crate::app::approximation::hit::{Target, target_at};
 use crate::app::approximation::{context_menu, marks, start};
-use crate::app::command::Command;
+use crate::app::hands;
 use crate::app::lab::{Hovered, Lab, Tool};
 use crate::app::painter::{color32, paint_note, paint_picture};
-use crate::document::{Approximation, Edit, ErrorPlot, Object, ObjectId, PlotWindow};
+use crate::document::{Approximation, Object, ObjectId, PlotWindow};
 use crate::exchange::csv::read_csv;
 use crate::figure::approximation::{Analysis, Layout, compose, error_text, fitted_window};
 use crate::figure::chart::Chart;
@@ -25,14 +25,14 @@ pub(super) type SelectedKnot = (ObjectId, usize, usize);
 
 /// What is painted, as long as nothing of it changes.
 #[derive(Debug)]
-struct Painted {
-    object: Arc<Object>,
+pub(super) struct Painted {
+    pub(super) object: Arc<Object>,
     analysis: Arc<Analysis>,
     window: PlotWindow,
     size: DVec2,
     theme: &'static str,
     grid: bool,
-    layout: Layout,
+    pub(super) layout: Layout,
     picture: Picture,
 }
 
@@ -40,11 +40,11 @@ struct Painted {
 #[derive(Debug, Default)]
 pub(crate) struct Canvas {
     rect: Option<Rect>,
-    painted: Option<Painted>,
-    gesture: Option<Gesture>,
-    knot: Option<SelectedKnot>,
+    pub(super) painted: Option<Painted>,
+    pub(super) gesture: Option<Gesture>,
+    pub(super) knot: Option<SelectedKnot>,
     menu_target: Target,
-    panning: bool,
+    pub(super) panning: bool,
     pointer: Option<(f64, f64)>,
 }
 
@@ -133,59 +133,6 @@ impl Canvas {
         self.knot = self.knot.filter(|&knot| still_there(knot));
     }
 
-    /// The commands that belong to the canvas.
-    pub(super) fn execute(&mut self, command: Command, lab: &mut Lab) -> bool {
-        match command {
-            Command::Fit => show_everything(lab),
-            Command::ZoomIn => self.zoom(lab, None, 0.8),
-            Command::ZoomOut => self.zoom(lab, None, 1.25),
-            Command::ToggleGrid => {
-                let shown = lab.view.panels.get(GRID).copied().unwrap_or(true);
-                lab.view.panels.insert(GRID.to_owned(), !shown);
-            }
-            Command::SelectDataTool => lab.tool = Tool::Select,
-            Command::AddPointTool => {
-                lab.tool = if lab.tool == Tool::AddPoint { Tool::Select } else { Tool::AddPoint };
-                if lab.tool == Tool::AddPoint && lab.approximation().is_none() {
-                    crate::app::approximation::new_approximation(lab, None);
-                }
-            }
-            Command::Escape => {
-                if self.gesture.take().is_some() {
-                    lab.history.cancel();
-                } else if lab.tool == Tool::AddPoint {
-                    lab.tool = Tool::Select;
-                } else {
-                    lab.selection.points.clear();
-                    self.knot = None;
-                }
-            }
-            Command::SelectAll => {
-                let count = lab.approximation().map_or(0, Approximation::len);
-                lab.selection.points = (0..count).collect();
-            }
-            Command::CycleErrorPlot => {
-                change(lab, "Change error plot", |approximation| {
-                    Ok(approximation.with_error_plot(match approximation.error_plot() {
-                        ErrorPlot::Linear => ErrorPlot::Logarithmic,
-                        ErrorPlot::Logarithmic => ErrorPlot::Hidden,
-                        ErrorPlot::Hidden => ErrorPlot::Linear,
-                    }))
-                });
-            }
-            Command::Duplicate => {
-                let Some(object) = lab.selection.object else { return true };
-                let outcome = lab.edit(Edit::DuplicateObject { object });
-                if let Some(&created) = outcome.as_ref().and_then(|outcome| outcome.created.first()) {
-                    lab.select(created);
-                }
-            }
-            Command::Delete => self.delete(lab),
-            _ => return false,
-        }
-        true
-    }
-
     /// What the status line says.
     pub(super) fn status(&self, busy: bool) -> String {
         if busy {
@@ -201,33 +148,6 @@ impl Canvas {
         let Some(approximation) = lab.approximation() else { return Vec::new() };
         let named = marks::named(approximation, &painted.object.name, &painted.layout);
         named.into_iter().map(|(name, at)| (name, screen_from_page(at, rect))).collect()
-    }
-
-    fn delete(&mut self, lab: &mut Lab) {
-        let Some(object) = lab.selection.object else { return };
-        if let Some((id, method, index)) = self.knot.take()
-            && id == object
-            && let Some(row) = self
-                .painted
-                .as_ref()
-                .and_then(|painted| painted.layout.rows.iter().find(|row| row.method == method))
-        {
-            let mut knots = row.knots.clone();
-            if index < knots.len() {
-                knots.remove(index);
-                change(lab, "Delete knot", |approximation| with_knots(approximation, method, knots));
-            }
-        } else if lab.selection.points.is_empty() {
-            lab.edit(Edit::RemoveObjects { objects: vec![object] });
-        } else {
-            let points: Vec<usize> = std::mem::take(&mut lab.selection.points).into_iter().collect();
-            let label = if points.len() == 1 {
-                "Delete datum".to_owned()
-            } else {
-                format!("Delete {} data", points.len())
-            };
-            change(lab, label, |approximation| approximation.without_points(&points));
-        }
     }
 
     /// Text from the clipboard that is a table becomes the data.
@@ -248,60 +168,6 @@ impl Canvas {
         }
     }
 
-    fn move_camera(
-        &mut self,
-        object: ObjectId,
-        lab: &mut Lab,
-        response: &egui::Response,
-        rect: Rect,
-        ui: &Ui,
-    ) {
-        let Some(layout) = self.painted.as_ref().map(|painted| painted.layout.clone()) else { return };
-        let space = ui.input(|input| input.key_down(Key::Space)) && !ui.text_edit_focused();
-        let middle = ui.input(|input| input.pointer.button_down(PointerButton::Middle));
-        let primary = ui.input(|input| input.pointer.primary_down());
-        if (middle || (space && primary))
-            && (self.panning || response.contains_pointer())
-            && self.gesture.is_none()
-        {
-            self.panning = true;
-            let moved = ui.input(|input| input.pointer.delta());
-            let shift = DVec2::new(f64::from(moved.x), -f64::from(moved.y)) * layout.main.per_point();
-            let window = PlotWindow {
-                x: layout.main.x.map(|end| end - shift.x),
-                y: layout.main.y.map(|end| end - shift.y),
-            };
-            look(lab, object, window);
-        } else {
-            self.panning = false;
-        }
-        let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta(), input.zoom_delta()));
-        let factor = f64::from(pinch) * (f64::from(scroll.y) / 240.0).exp();
-        if let Some(pointer) =
-            ui.input(|input| input.pointer.hover_pos()).filter(|_| response.contains_pointer())
-            && (factor - 1.0).abs() > 1e-9
-        {
-            self.zoom(lab, Some(page_from_screen(pointer, rect)), 1.0 / factor);
-        }
-    }
-
-    /// Makes the ranges `factor` times as long around a place of the page: that of x alone below the plot, that of y alone left of it.
-    fn zoom(&self, lab: &mut Lab, about: Option<DVec2>, factor: f64) {
-        let Some(painted) = &self.painted else { return };
-        let main = &painted.layout.main;
-        let about = about.unwrap_or((main.low + main.high) * 0.5);
-        let (x, y) = main.numbers(about);
-        let around = |[low, high]: [f64; 2], at: f64| [at + (low - at) * factor, at + (high - at) * factor];
-        let mut window = PlotWindow { x: main.x, y: main.y };
-        if about.x >= main.low.x {
-            window.x = around(window.x, x);
-        }
-        if about.y >= main.low.y {
-            window.y = around(window.y, y);
-        }
-        look(lab, painted.object.id, window);
-    }
-
     #[expect(clippy::too_many_arguments, reason = "what a frame of the canvas knows")]
     fn use_hands(
         &mut self,
@@ -318,15 +184,6 @@ impl Canvas {
         let page = page_from_screen(pointer, rect);
         let (down, released) =
             ui.input(|input| (input.pointer.primary_down(), input.pointer.primary_released()));
-        // In a slow frame the pointer has moved on since the press; what was pressed is what lay there.
-        let pressed_at = ui.input(|input| {
-            input.events.iter().find_map(|event| match *event {
-                egui::Event::PointerButton { pos, button: PointerButton::Primary, pressed: true, .. } => {
-                    Some(pos)
-                }
-                _ => None,
-            })
-        });
         if lab.tool == Tool::AddPoint {
             if response.clicked() && layout.main.contains(page) {
                 add_point(page, layout, lab, keys.command || keys.ctrl);
@@ -349,7 +206,7 @@ impl Canvas {
             self.insert_knot(object.id, method, at, layout, lab);
             return;
         }
-        if let Some(at) = pressed_at
+        if let Some(at) = hands::pressed_at(ui)
             && rect.contains(at)
             && (response.contains_pointer() || response.is_pointer_button_down_on())
             && !self.panning
@@ -493,17 +350,6 @@ fn add_point(page: DVec2, layout: &Layout, lab: &mut Lab, snap: bool) {
             let window = PlotWindow { x: layout.main.x, y: layout.main.y };
             lab.view.plots.entry(object).or_insert(window);
         }
-    }
-}
-
-/// Looks at `window` if numbers can tell its places apart.
-fn look(lab: &mut Lab, object: ObjectId, window: PlotWindow) {
-    let fine = |[low, high]: [f64; 2]| {
-        let length = high - low;
-        length > 1e-11 * low.abs().max(high.abs()) && (1e-280..1e280).contains(&length)
-    };
-    if window.check().is_ok() && fine(window.x) && fine(window.y) {
-        lab.view.plots.insert(object, window);
     }
 }
 

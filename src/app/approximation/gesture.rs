@@ -7,15 +7,12 @@ use glam::DVec2;
 
 use crate::app::approximation::changes::{set, with_knots};
 use crate::app::approximation::hit::Target;
+use crate::app::hands::{DEAD_ZONE, SNAP_REACH};
 use crate::app::lab::Lab;
 use crate::document::{Approximation, ObjectId};
 use crate::figure::approximation::{Layout, PlotArea};
 use crate::figure::ticks::Step;
 
-/// A press that moves less than this many points is a click and changes nothing.
-const DEAD_ZONE: f64 = 4.0;
-/// Points within which Ctrl snaps to the grid.
-const SNAP_REACH: f64 = 8.0;
 /// Least distance in points of the lines that Ctrl snaps to.
 const SNAP_LINES: f64 = 14.0;
 
@@ -84,7 +81,7 @@ impl Gesture {
 
     /// The pointer moved with the button down.
     pub(super) fn drag(&mut self, page: DVec2, layout: &Layout, lab: &mut Lab, keys: Modifiers) {
-        if !self.moved && page.distance(self.from) < DEAD_ZONE {
+        if !self.moved && page.distance(self.from) < f64::from(DEAD_ZONE) {
             return;
         }
         self.moved = true;

@@ -1,7 +1,9 @@
 //! The Approximation workspace: data, a typed function, and methods that approximate them, side by side on the same axes.
 
+mod camera;
 mod canvas;
 mod changes;
+mod commands;
 mod context_menu;
 mod data_table;
 mod desk;

@@ -1,8 +1,6 @@
 //! The canvas: camera, picture, handles, and the hands on them.
 
-use eframe::egui::{
-    self, Align2, CursorIcon, Key, PointerButton, Pos2, Rect, Sense, Stroke, StrokeKind, Ui, vec2,
-};
+use eframe::egui::{self, Align2, CursorIcon, Pos2, Rect, Sense, Stroke, StrokeKind, Ui, vec2};
 use glam::DVec2;
 
 use crate::app::command::Command;
@@ -12,6 +10,7 @@ use crate::app::curves::draw_tool::Drawing;
 use crate::app::curves::gesture::Gesture;
 use crate::app::curves::handles;
 use crate::app::curves::hit::{Target, target_at};
+use crate::app::hands;
 use crate::app::lab::{Hovered, Lab, Tool};
 use crate::app::painter::{color32, paint_note, paint_picture, screen_from_world, world_from_screen};
 use crate::document::{Edit, ObjectId};
@@ -20,9 +19,6 @@ use crate::figure::picture::Viewport;
 
 /// Room around the objects when they are fitted, in pt.
 const FIT_MARGIN: f64 = 60.0;
-
-/// Scales beyond these cannot be told from each other in f64 coordinates of ordinary size.
-const SCALES: std::ops::RangeInclusive<f64> = 1e-12..=1e14;
 
 /// The canvas of plane curves.
 #[derive(Debug, Default)]
@@ -65,7 +61,8 @@ impl Canvas {
         if !self.fitted || !lab.view.camera.scale.is_finite() || lab.view.camera.scale <= 0.0 {
             self.fit(lab);
         }
-        self.move_camera(lab, &response, rect, ui);
+        let busy = self.gesture.is_some();
+        hands::move_camera(&mut lab.view.camera, &mut self.panning, busy, &response, rect, ui);
         let viewport = viewport(lab);
         let pointer = ui.input(|input| input.pointer.hover_pos()).filter(|_| response.contains_pointer());
         let target = pointer.map_or(Target::Nothing, |pointer| target_at(lab, &viewport, rect, pointer));
@@ -98,21 +95,16 @@ impl Canvas {
         let (low, high) =
             lab.history.document().bounding_box().unwrap_or((DVec2::splat(-4.0), DVec2::splat(4.0)));
         let margin = FIT_MARGIN.min(0.12 * lab.canvas_size.min_element());
-        let fitting = Viewport::fitting(low, high, lab.canvas_size, margin);
-        lab.view.camera.center = fitting.center;
-        lab.view.camera.scale = fitting.scale.clamp(*SCALES.start(), *SCALES.end());
+        hands::fit(&mut lab.view.camera, low, high, lab.canvas_size, margin);
         self.fitted = true;
     }
 
     /// The commands that belong to the canvas.
     pub(crate) fn execute(&mut self, command: Command, lab: &mut Lab) -> bool {
-        let zoom = |lab: &mut Lab, factor: f64| {
-            lab.view.camera.scale = (lab.view.camera.scale * factor).clamp(*SCALES.start(), *SCALES.end());
-        };
         match command {
             Command::Fit => self.fit(lab),
-            Command::ZoomIn => zoom(lab, 1.25),
-            Command::ZoomOut => zoom(lab, 0.8),
+            Command::ZoomIn => hands::zoom(&mut lab.view.camera, 1.25),
+            Command::ZoomOut => hands::zoom(&mut lab.view.camera, 0.8),
             Command::ToggleGrid => {
                 let shown = lab.view.panels.get(GRID).copied().unwrap_or(true);
                 lab.view.panels.insert(GRID.to_owned(), !shown);
@@ -139,33 +131,6 @@ impl Canvas {
         true
     }
 
-    fn move_camera(&mut self, lab: &mut Lab, response: &egui::Response, rect: Rect, ui: &Ui) {
-        let space = ui.input(|input| input.key_down(Key::Space)) && !ui.text_edit_focused();
-        let middle = ui.input(|input| input.pointer.button_down(PointerButton::Middle));
-        let primary = ui.input(|input| input.pointer.primary_down());
-        let pan_keys = middle || (space && primary);
-        if pan_keys && (self.panning || response.contains_pointer()) && self.gesture.is_none() {
-            self.panning = true;
-            let moved = ui.input(|input| input.pointer.delta());
-            let shift = DVec2::new(f64::from(moved.x), -f64::from(moved.y)) / lab.view.camera.scale;
-            lab.view.camera.center -= shift;
-        } else {
-            self.panning = false;
-        }
-        let alt = ui.input(|input| input.modifiers.alt);
-        let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta(), input.zoom_delta()));
-        let factor = f64::from(pinch) * (f64::from(scroll.y) / 240.0).exp();
-        if let Some(pointer) =
-            ui.input(|input| input.pointer.hover_pos()).filter(|_| response.contains_pointer() && !alt)
-            && (factor - 1.0).abs() > 1e-9
-        {
-            let before = world_from_screen(&viewport(lab), rect, pointer);
-            lab.view.camera.scale = (lab.view.camera.scale * factor).clamp(*SCALES.start(), *SCALES.end());
-            let after = world_from_screen(&viewport(lab), rect, pointer);
-            lab.view.camera.center += before - after;
-        }
-    }
-
     fn use_hands(
         &mut self,
         lab: &mut Lab,
@@ -179,15 +144,7 @@ impl Canvas {
         let Some(pointer) = ui.input(|input| input.pointer.latest_pos()) else { return };
         let (down, released) =
             ui.input(|input| (input.pointer.primary_down(), input.pointer.primary_released()));
-        // In a slow frame the pointer has moved on since the press; what was pressed is what lay there.
-        let pressed_at = ui.input(|input| {
-            input.events.iter().find_map(|event| match *event {
-                egui::Event::PointerButton { pos, button: PointerButton::Primary, pressed: true, .. } => {
-                    Some(pos)
-                }
-                _ => None,
-            })
-        });
+        let pressed_at = hands::pressed_at(ui);
         if lab.tool == Tool::Draw {
             if response.double_clicked() || response.secondary_clicked() {
                 self.drawing.finish(false, lab);
@@ -322,7 +279,7 @@ fn shows_everything(lab: &Lab) -> bool {
 
 /// The camera as a viewport of the canvas.
 fn viewport(lab: &Lab) -> Viewport {
-    Viewport { center: lab.view.camera.center, scale: lab.view.camera.scale, size: lab.canvas_size }
+    hands::viewport_of(&lab.view.camera, lab.canvas_size)
 }
 
 fn hint(lab: &Lab) -> Option<&'static str> {

@@ -1,38 +1,22 @@
 //! What keys and menus do to the selected curve.
 
-use eframe::egui::{Key, Modifiers, Ui};
-use glam::DVec2;
+use eframe::egui::Ui;
 
 use crate::app::command::Command;
-use crate::app::curves::gesture::fine_step;
+use crate::app::hands;
 use crate::app::lab::Lab;
 use crate::document::{CurveDisplay, Edit, PointLabels};
 use crate::figure::picture::Viewport;
 
-/// Arrow keys move the selected points by a tenth of the grid, Shift ten times, Ctrl a tenth of that.
+/// Arrow keys move the selected points.
 pub(super) fn nudge(lab: &mut Lab, viewport: &Viewport, ui: &Ui) {
-    let keys_are_taken = ui.memory(|memory| memory.focused().is_some() || memory.top_modal_layer().is_some());
-    if keys_are_taken || lab.selection.points.is_empty() {
+    if lab.selection.points.is_empty() {
         return;
     }
     let Some(object) = lab.selection.object else { return };
-    for (key, direction) in [
-        (Key::ArrowLeft, -DVec2::X),
-        (Key::ArrowRight, DVec2::X),
-        (Key::ArrowUp, DVec2::Y),
-        (Key::ArrowDown, -DVec2::Y),
-    ] {
-        for (keys, factor) in [(Modifiers::NONE, 1.0), (Modifiers::SHIFT, 10.0), (Modifiers::CTRL, 0.1)] {
-            let pressed = ui.input_mut(|input| {
-                let wanted = input.modifiers.shift == keys.shift && input.modifiers.ctrl == keys.ctrl;
-                wanted && input.consume_key(input.modifiers, key)
-            });
-            if pressed {
-                let step = 0.1 * fine_step(viewport) * factor;
-                let points = lab.selection.points.iter().copied().collect();
-                lab.edit(Edit::MovePoints { object, points, delta: direction * step });
-            }
-        }
+    for delta in hands::nudges(viewport, ui) {
+        let points = lab.selection.points.iter().copied().collect();
+        lab.edit(Edit::MovePoints { object, points, delta });
     }
 }
 

@@ -12,9 +12,9 @@ use glam::DVec2;
 use crate::app::elements::gesture::Gesture;
 use crate::app::elements::hit::{Target, target_at};
 use crate::app::elements::{CAMERA, Elements, Subject, add, context_menu};
+use crate::app::hands;
 use crate::app::lab::Lab;
 use crate::app::painter::{color32, paint_note, paint_picture, screen_from_world, world_from_screen};
-use crate::app::plane_hands;
 use crate::document::{Camera, HandleId, MembraneDisplay, ObjectId, Shape};
 use crate::figure::composition::short_number;
 use crate::figure::elements::{Solved, boundary, field, ground, legend, net};
@@ -56,7 +56,7 @@ pub(super) fn camera(lab: &Lab) -> Camera {
 }
 
 fn viewport(lab: &Lab) -> Viewport {
-    plane_hands::viewport_of(&camera(lab), lab.canvas_size)
+    hands::viewport_of(&camera(lab), lab.canvas_size)
 }
 
 fn camera_mut(lab: &mut Lab) -> &mut Camera {
@@ -75,12 +75,12 @@ impl Canvas {
         let (low, high) = bounds.unwrap_or((DVec2::splat(-2.0), DVec2::splat(2.0)));
         let margin = FIT_MARGIN.min(0.12 * lab.canvas_size.min_element());
         let size = lab.canvas_size;
-        plane_hands::fit(camera_mut(lab), low, high, size, margin);
+        hands::fit(camera_mut(lab), low, high, size, margin);
     }
 
     /// Changes the scale.
     pub(super) fn zoom(&self, lab: &mut Lab, factor: f64) {
-        plane_hands::zoom(camera_mut(lab), factor);
+        hands::zoom(camera_mut(lab), factor);
     }
 
     /// Gives up the running drag; `false` if there is none.
@@ -129,7 +129,7 @@ pub(super) fn show(room: &mut Elements, subject: Option<&Subject>, lab: &mut Lab
     room.canvas.check_camera(subject, lab);
     let busy = room.canvas.gesture.is_some();
     let mut panning = room.canvas.panning;
-    plane_hands::move_camera(camera_mut(lab), &mut panning, busy, &response, rect, ui);
+    hands::move_camera(camera_mut(lab), &mut panning, busy, &response, rect, ui);
     room.canvas.panning = panning;
     let viewport = viewport(lab);
     let pointer = ui.input(|input| input.pointer.hover_pos()).filter(|_| response.contains_pointer());
@@ -141,7 +141,7 @@ pub(super) fn show(room: &mut Elements, subject: Option<&Subject>, lab: &mut Lab
         use_hands(room, subject, lab, &response, (&viewport, rect), target, ui);
         turn_wheel_on_weight(room, subject, lab, target, ui);
         if !room.selected.is_empty() {
-            for delta in plane_hands::nudges(&viewport, ui) {
+            for delta in hands::nudges(&viewport, ui) {
                 let handles: Vec<HandleId> = room.selected.iter().copied().collect();
                 subject.apply(lab, "Nudge", subject.membrane.with_moved_handles(&handles, delta));
             }
@@ -201,7 +201,7 @@ fn use_hands(
         subject.apply(lab, "Insert vertex", changed);
         return;
     }
-    if let Some(at) = plane_hands::pressed_at(ui)
+    if let Some(at) = hands::pressed_at(ui)
         && rect.contains(at)
         && (response.contains_pointer() || response.is_pointer_button_down_on())
         && !room.canvas.panning

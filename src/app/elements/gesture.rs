@@ -7,9 +7,9 @@ use glam::DVec2;
 
 use crate::app::elements::Subject;
 use crate::app::elements::hit::Target;
+use crate::app::hands::{DEAD_ZONE, constrained};
 use crate::app::lab::Lab;
 use crate::app::painter::{screen_from_world, world_from_screen};
-use crate::app::plane_hands::{DEAD_ZONE, constrained};
 use crate::document::{HandleId, Membrane};
 use crate::figure::picture::Viewport;
 

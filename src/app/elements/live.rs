@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use eframe::egui::Context;
 
-use crate::app::elements::worker::Worker;
+use crate::app::worker::Worker;
 use crate::core::progress::Watcher;
 use crate::document::{Membrane, ObjectId};
 use crate::figure::elements::{ErrorStudy, SolveError, Solved, error_study, solve};

@@ -8,7 +8,6 @@ mod hit;
 mod inspector;
 mod live;
 mod tools;
-pub(crate) mod worker;
 
 use std::collections::BTreeSet;
 

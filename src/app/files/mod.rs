@@ -3,40 +3,31 @@
 //! A flow that would take a document from the desk is a [`Then`]: it runs at once when nothing would be lost, and after
 //! the question whether to save otherwise. Files are read before anything is asked, so that a damaged one changes nothing.
 
+mod exchange;
 mod keeper;
 mod lessons;
 mod question;
 
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::{self, Receiver};
+use std::sync::mpsc::Receiver;
 
 use eframe::egui::{Context, Ui, ViewportCommand};
 
-use crate::app::approximation::{new_approximation, take_table};
+use crate::app::approximation::new_approximation;
 use crate::app::command::Command;
 use crate::app::directories::Directories;
 use crate::app::file_dialog::{self, Answer, FileDialog, Purpose, Request};
 use crate::app::lab::Lab;
 use crate::app::preferences::{self, Preferences};
 use crate::app::sheet::Sheet;
-use crate::document::{self, Content, Document, EXTENSION, Edit, Recovered, Saved, View};
-use crate::exchange::by_ending::{self, FIGURE_ENDINGS, FigureFormat};
-use crate::exchange::csv::{CsvError, read_csv_file, write_csv};
-use crate::figure::page::page;
-use crate::figure::picture::Viewport;
-use crate::figure::surfaces;
+use crate::document::{self, Document, EXTENSION, Recovered, Saved, View};
+use crate::exchange::by_ending::{self, FIGURE_ENDINGS};
 use crate::figure::theme::Theme;
 
 use keeper::Keeper;
 use question::{Problem, Question, Reply};
 
 pub(crate) use lessons::{back_to_document, open_lesson, restart_lesson};
-
-/// Pixels of an exported PNG per point: 144 to the inch, sharp on paper and on fine screens.
-const PNG_SCALE: f64 = 2.0;
-
-/// Endings of tables, the usual one first.
-const TABLES: &[&str] = &["csv", "tsv", "txt", "dat"];
 
 /// What is to be done once nothing can be lost any more.
 #[derive(Debug)]
@@ -227,8 +218,10 @@ impl Files {
             Wanted::Figure => {
                 (Purpose::Save, "Export a figure", "figures", FIGURE_ENDINGS, format!("{name}.svg"))
             }
-            Wanted::Data => (Purpose::Open, "Import data", "tables", TABLES, String::new()),
-            Wanted::DataCopy => (Purpose::Save, "Export the data", "tables", TABLES, format!("{name}.csv")),
+            Wanted::Data => (Purpose::Open, "Import data", "tables", exchange::TABLES, String::new()),
+            Wanted::DataCopy => {
+                (Purpose::Save, "Export the data", "tables", exchange::TABLES, format!("{name}.csv"))
+            }
         };
         let request = Request { purpose, title, kind, extensions, folder, file_name };
         self.dialog = Some((FileDialog::ask(request, self.desktop), wanted));
@@ -355,43 +348,6 @@ impl Files {
         }
     }
 
-    /// Adds the mesh of a file to the document, as one step.
-    fn import_mesh(&mut self, path: &Path, lab: &mut Lab) {
-        match by_ending::read_mesh(path) {
-            Ok((name, mesh)) => {
-                let is_first = surfaces::bounding_box(lab.history.document()).is_none();
-                let made = lab.edit(Edit::AddObject { name, content: Content::Mesh(mesh) });
-                if let Some(&id) = made.as_ref().and_then(|made| made.created.first()) {
-                    lab.select(id);
-                    if is_first {
-                        lab.commands.push(Command::Fit);
-                    }
-                }
-            }
-            Err(error) => {
-                self.problems.push(Problem::new("This mesh cannot be imported", error.to_string()));
-            }
-        }
-    }
-
-    /// Writes the selected mesh at the level that is shown.
-    fn export_mesh(&mut self, path: &Path, lab: &mut Lab) {
-        let object = lab.selection.object.and_then(|id| lab.history.document().object(id));
-        let Some(mesh) = object.and_then(|object| object.mesh()) else {
-            lab.problem("Select a mesh first.");
-            return;
-        };
-        let written = mesh.steps().map_err(|error| error.to_string()).and_then(|steps| {
-            let refined = steps.last().map_or(mesh.cage(), |step| &step.mesh);
-            let text = crate::exchange::obj::write(refined);
-            by_ending::write_file(path, text.as_bytes()).map_err(|error| error.to_string())
-        });
-        match written {
-            Ok(()) => lab.done(format!("Mesh written to {}", name_of(path))),
-            Err(error) => self.problems.push(Problem::new("The mesh was not written", error)),
-        }
-    }
-
     fn open(&mut self, path: &Path, lab: &mut Lab) {
         if by_ending::is_mesh(path) {
             self.import_mesh(path, lab);
@@ -418,54 +374,6 @@ impl Files {
         true
     }
 
-    fn export(&mut self, path: PathBuf, lab: &mut Lab) {
-        let format = match FigureFormat::of(&path) {
-            Ok(format) => format,
-            Err(error) => {
-                self.problems.push(Problem::new("The figure was not written", error.to_string()));
-                return;
-            }
-        };
-        let (document, view, theme) = (lab.history.document().clone(), view_to_save(lab), lab.theme.clone());
-        let camera = lab.view.room_camera();
-        let viewport = Viewport { center: camera.center, scale: camera.scale, size: lab.canvas_size };
-        let (send, receive) = mpsc::channel();
-        let write = move || {
-            let (picture, viewport) = match page(&document, &view, &theme, &viewport) {
-                Ok(page) => page,
-                Err(error) => {
-                    let _ = send.send(Err(error.to_string()));
-                    return;
-                }
-            };
-            let written = by_ending::figure(format, &picture, &viewport, &document, &view, PNG_SCALE)
-                .and_then(|bytes| by_ending::write_file(&path, &bytes));
-            // Nobody listens any more when the window has been closed meanwhile.
-            let _ = send.send(written.map(|()| path).map_err(|error| error.to_string()));
-        };
-        match std::thread::Builder::new().name("figure".to_owned()).spawn(write) {
-            Ok(_) => self.exporting = Some(receive),
-            Err(error) => self.problems.push(Problem::new("The figure was not written", error.to_string())),
-        }
-    }
-
-    fn finish_export(&mut self, lab: &mut Lab, ui: &Ui) {
-        let Some(exporting) = &self.exporting else { return };
-        match exporting.try_recv() {
-            Ok(Ok(path)) => lab.done(format!("Figure written to {}", name_of(&path))),
-            Ok(Err(error)) => self.problems.push(Problem::new("The figure was not written", error)),
-            Err(mpsc::TryRecvError::Empty) => {
-                ui.ctx().request_repaint_after(std::time::Duration::from_millis(50));
-                return;
-            }
-            Err(mpsc::TryRecvError::Disconnected) => {
-                self.problems
-                    .push(Problem::new("The figure was not written", "The writer stopped.".to_owned()));
-            }
-        }
-        self.exporting = None;
-    }
-
     fn take_dropped_file(&mut self, lab: &mut Lab, ui: &Ui) {
         if !ui.input(|input| input.raw.hovered_files.is_empty()) {
             question::show_drop_hint(ui);
@@ -474,34 +382,10 @@ impl Files {
         if let Some(path) = dropped
             && !self.is_asking()
         {
-            if is_table(&path) {
+            if exchange::is_table(&path) {
                 self.import_data(&path, lab);
             } else {
                 self.open(&path, lab);
-            }
-        }
-    }
-
-    fn import_data(&mut self, path: &Path, lab: &mut Lab) {
-        match read_csv_file(path) {
-            Ok(table) => take_table(lab, table, &name_of(path)),
-            Err(error) => {
-                let text = match &error {
-                    CsvError::Io { .. } | CsvError::TooLarge { .. } => error.to_string(),
-                    _ => format!("{}: {error}", path.display()),
-                };
-                self.problems.push(Problem::new("These data cannot be imported", text));
-            }
-        }
-    }
-
-    fn export_data(&mut self, path: &Path, lab: &mut Lab) {
-        let Some(data) = lab.approximation() else { return };
-        let text = write_csv(data.sites(), data.values(), data.weights());
-        match by_ending::write_file(path, text.as_bytes()) {
-            Ok(()) => lab.done(format!("Data written to {}", name_of(path))),
-            Err(error) => {
-                self.problems.push(Problem::new("The data were not written", error.to_string()));
             }
         }
     }
@@ -544,12 +428,6 @@ fn view_to_save(lab: &Lab) -> View {
         selected_points: lab.selection.points.iter().copied().collect(),
         ..lab.view.clone()
     }
-}
-
-/// Whether `path` has the ending of a table.
-fn is_table(path: &Path) -> bool {
-    let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
-    ending.is_some_and(|ending| TABLES.contains(&ending.as_str()))
 }
 
 /// Name of a file for people.

@@ -8,6 +8,10 @@ use crate::document::EyeState;
 use crate::figure::scene::{Eye, StandardView};
 use crate::figure::theme::Theme;
 
+/// Places in the palette of the colours of x, y and z: reddish, green and blue as in every program, but told apart by colour-blind
+/// eyes.
+pub(crate) const AXIS_INKS: [usize; 3] = [1, 2, 0];
+
 /// Length of an arrow in pt.
 const LENGTH: f32 = 30.0;
 /// Distance of the middle from the corner of the view, in pt.
@@ -35,8 +39,7 @@ pub(crate) fn axis_gizmo(eye: &mut Eye, rect: Rect, theme: &Theme, ui: &mut Ui) 
     }
     let middle = pos2(rect.left() + INSET, rect.bottom() - INSET);
     let axes = eye.axes();
-    // Red, green and blue as in every program, from the palette that colour-blind eyes tell apart.
-    let inks = [5, 2, 0].map(|k| color32(theme.basis_color(k)));
+    let inks = AXIS_INKS.map(|k| color32(theme.basis_color(k)));
     let names = ["x", "y", "z"];
     let mut ends: Vec<(usize, f64)> = (0..3).flat_map(|axis| [(axis, 1.0), (axis, -1.0)]).collect();
     let towards = |&(axis, sign): &(usize, f64)| DVec3::AXES[axis].dot(axes.towards) * sign;

@@ -1,9 +1,9 @@
-//! What lies under the pointer, and how a thing in space follows it.
+//! How a thing in space follows the pointer.
 
 use eframe::egui::{Pos2, Rect, vec2};
 use glam::{DVec2, DVec3};
 
-use crate::figure::scene::{EyeView, PointHit, Scene, SceneHit, SceneItem, TriangleHit, depth_slack};
+use crate::figure::scene::EyeView;
 
 /// An axis whose unit is shorter on the page than this part of one across the view is no axis to follow.
 const LEAST_SHARE: f64 = 0.1;
@@ -21,33 +21,6 @@ pub(crate) fn screen_from_page(rect: Rect, page: DVec2) -> Pos2 {
     rect.min + vec2(bound(page.x), bound(page.y))
 }
 
-/// What lies under a place of the page.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Under {
-    /// A mark: layer, item, and its index among the marks of the item.
-    Mark(SceneHit<PointHit>),
-    /// A surface: layer, item, and where on which triangle.
-    Surface(SceneHit<TriangleHit>),
-}
-
-/// The mark whose rim is within `within` pt of `page` and that no surface hides, or else the surface there.
-pub(crate) fn under(scene: &Scene, view: &EyeView, page: DVec2, within: f64) -> Option<Under> {
-    let mark = scene.pick_mark(view, page, within).filter(|hit| {
-        let Some(SceneItem::Points(points)) = scene.layers[hit.layer].items.get(hit.item) else {
-            return false;
-        };
-        let place = view.project(points.points()[hit.hit.index]);
-        points.on_top
-            || place.is_some_and(|place| {
-                let before = scene.pick_triangle(view, place.page);
-                before.is_none_or(|surface| {
-                    view.eye.depth(surface.hit.point) + depth_slack(scene) >= place.depth
-                })
-            })
-    });
-    mark.map(Under::Mark).or_else(|| scene.pick_triangle(view, page).map(Under::Surface))
-}
-
 /// Where a thing may go.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Track {
@@ -55,8 +28,6 @@ pub(crate) enum Track {
     Page,
     /// Along this direction.
     Axis(DVec3),
-    /// In the plane with this normal.
-    Plane(DVec3),
 }
 
 /// A thing that is held.
@@ -76,10 +47,6 @@ impl Grip {
             Track::Axis(axis) => {
                 let along = |page| view.along_axis(self.at, axis, page);
                 along(page).zip(along(self.page)).map_or(DVec3::ZERO, |(to, from)| axis * (to - from))
-            }
-            Track::Plane(normal) => {
-                let on = |page| view.on_plane(self.at, normal, page);
-                on(page).zip(on(self.page)).map_or(DVec3::ZERO, |(to, from)| to - from)
             }
         }
     }

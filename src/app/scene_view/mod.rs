@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `mod.rs` | [`SceneView`]: a scene in a rectangle of the window |
 //! | `hands.rs` | drags and the wheel move the eye |
-//! | `grip.rs` | what lies under the pointer, and how a thing follows it |
+//! | `grip.rs` | how a thing follows the pointer |
 //! | `gizmo.rs` | the little axes in the corner, and the tools that turn the eye |
 //! | `geometry.rs` | a scene as vertices for the GPU |
 //! | `shader.wgsl` | triangles, strokes and marks on the GPU; the light is that of [`crate::figure::scene::Light`] |
@@ -28,9 +28,9 @@ use crate::figure::picture::{Item, Label, Picture, Viewport};
 use crate::figure::scene::{Eye, EyeView, Scene, SceneItem};
 use crate::figure::theme::Theme;
 
-pub(crate) use gizmo::{axis_gizmo, eye_tools};
+pub(crate) use gizmo::{AXIS_INKS, axis_gizmo, eye_tools};
 pub(crate) use gpu::offer as offer_gpu;
-pub(crate) use grip::{Grip, Track, Under, likeliest_axis, page_from_screen, screen_from_page, under};
+pub(crate) use grip::{Grip, Track, likeliest_axis, page_from_screen, screen_from_page};
 
 /// Room around things that are fitted, in pt, on a large page.
 const FIT_MARGIN: f64 = 40.0;

@@ -1,5 +1,4 @@
 use std::f64::consts::{PI, TAU};
-use std::time::Instant;
 
 use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, Rect, Sense, Shape, pos2, vec2};
 use eframe::egui_wgpu::{RenderState, RendererOptions, WgpuConfiguration};
@@ -290,30 +289,10 @@ fn things_follow_the_pointer_on_their_track() {
         let moved = grip.moved(&view, to, Track::Axis(axis));
         assert!(moved.cross(axis).length() < 1e-12 && moved.length() > 0.0, "along {axis}: {moved}");
     }
-    let moved = grip.moved(&view, to, Track::Plane(DVec3::Z));
-    assert!(moved.z.abs() < 1e-9, "at the same height: {moved}");
-    assert!(view.project(at + moved).unwrap().page.distance(to) < 1e-6, "under the pointer");
     let end_on = from_above(true);
     assert_eq!(grip.moved(&end_on, to, Track::Axis(DVec3::Z)), DVec3::ZERO, "one looks along it");
     assert_eq!(likeliest_axis(&end_on, at, DVec2::new(1.0, -5.0)), DVec3::Y, "up on the page");
     assert_eq!(likeliest_axis(&view, at, DVec2::new(1.0, -5.0)), DVec3::Z, "up in space");
-}
-
-#[test]
-fn marks_behind_a_surface_are_not_under_the_pointer() {
-    let marks = |on_top: bool| {
-        let points = vec![DVec3::new(0.0, 0.0, -1.0), DVec3::new(0.5, 0.0, 0.0)];
-        let mut marks = Points::new(points, MarkerShape::Disc, 6.0, Color::hex(0)).unwrap();
-        marks.on_top = on_top;
-        scene(vec![square(0.0), SceneItem::Points(marks)])
-    };
-    let (view, middle) = (from_above(false), DVec2::splat(100.0));
-    let found = |scene: &Scene, at: DVec2| under(scene, &view, at, 4.0);
-    assert!(matches!(found(&marks(false), middle), Some(Under::Surface(_))), "hidden");
-    assert!(matches!(found(&marks(true), middle), Some(Under::Mark(hit)) if hit.hit.index == 0), "on top");
-    let within = found(&marks(false), DVec2::new(127.0, 101.0));
-    assert!(matches!(within, Some(Under::Mark(hit)) if hit.hit.index == 1), "in the surface: {within:?}");
-    assert_eq!(found(&marks(false), DVec2::splat(1.0)), None, "beside everything");
 }
 
 // ---- Geometry
@@ -527,63 +506,5 @@ fn marks_cover_their_area() {
         let scene = scene(vec![SceneItem::Points(marks)]);
         let found = ink(drawn(&mut gpu, &scene, version as u64, &from_above(false)).iter());
         assert!((found / exact - 1.0).abs() < 0.02, "{shape:?}: {found} of {exact}");
-    }
-}
-
-/// `cargo test --lib scene_view::tests::measure -- --ignored --nocapture`
-#[test]
-#[ignore = "a measurement"]
-fn measure() {
-    let Some(mut gpu) = gpu() else { return };
-    println!("{:?}", gpu.state.adapter.get_info().name);
-    let light = Theme::light().light;
-    for (rows, columns, wire) in [(32, 64, true), (160, 320, false), (160, 320, true)] {
-        let surface = torus(rows, columns);
-        let mut items = vec![SceneItem::Triangles(surface.clone())];
-        if wire {
-            for &[a, b, c] in surface.triangles() {
-                let place = |k: u32| surface.positions()[k as usize].to_array();
-                items.push(SceneItem::Line(line(&[place(a), place(b), place(c)], 1.0)));
-            }
-        }
-        let scene = scene(items);
-        let bounds = scene.bounding_box();
-        let mut eye = Eye::default();
-        let mut times = Vec::new();
-        for _ in 0..12 {
-            eye = eye.orbited(0.05, 0.01);
-            let view = EyeView { eye, size: DVec2::new(1000.0, 700.0) };
-            let start = Instant::now();
-            let version = u64::from(rows) + u64::from(wire);
-            let order = Order {
-                scene: &scene,
-                version,
-                bounds,
-                view: &view,
-                light: &light,
-                ground: WHITE,
-                pixels_per_point: 1.0,
-            };
-            gpu.draw(&order, [1000, 700]).unwrap();
-            let submitted = start.elapsed();
-            gpu.state.device.poll(wgpu::PollType::wait_indefinitely()).unwrap();
-            times.push((submitted, start.elapsed()));
-        }
-        let first = times[0].1;
-        times.sort_by_key(|time| time.1);
-        let (faces, (submitted, median)) = (surface.triangles().len(), times[times.len() / 2]);
-        println!(
-            "{faces} triangles, lines {wire}: first {first:?}, then {median:?}, of which {submitted:?} on this thread"
-        );
-    }
-    let size = DVec2::new(1000.0, 700.0);
-    for scene in [still_life(), scene(vec![SceneItem::Triangles(torus(160, 320))])] {
-        let start = Instant::now();
-        stand_in::draw_for_tests(&scene, size);
-        println!(
-            "the processor, {:?} triangles: {:?}",
-            scene.triangles().map(|t| t.triangles().len()).sum::<usize>(),
-            start.elapsed()
-        );
     }
 }

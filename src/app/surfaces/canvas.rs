@@ -1,19 +1,18 @@
 //! The canvas: the view of space, handles, and the hands on them.
 
-use eframe::egui::{
-    self, Align2, CursorIcon, Key, Modifiers, PointerButton, Pos2, Rect, Sense, Stroke, StrokeKind, Ui, vec2,
-};
+use eframe::egui::{self, Align2, CursorIcon, Pos2, Rect, Sense, Stroke, StrokeKind, Ui, vec2};
 use glam::{DVec2, DVec3};
 
 use crate::app::command::Command;
+use crate::app::hands;
 use crate::app::lab::Lab;
 use crate::app::painter::{color32, paint_note, paint_picture};
 use crate::app::scene_view::{SceneView, axis_gizmo, page_from_screen, screen_from_page, view_through};
 use crate::app::surfaces::gesture::{Gesture, fine_step, picked};
 use crate::app::surfaces::shape_store::ShapeStore;
-use crate::app::surfaces::stencil::{self, StencilView, weight_text};
+use crate::app::surfaces::stencil::{self, StencilView};
 use crate::app::surfaces::target::{Target, arrows, center, shows_points, target_at, view_of};
-use crate::app::surfaces::{Picked, commands, eye_of, start};
+use crate::app::surfaces::{Picked, commands, eye_of, marks, start};
 use crate::document::{Object, ObjectId};
 use crate::figure::picture::{Picture, Viewport};
 use crate::figure::scene::{EyeView, Scene};
@@ -23,8 +22,6 @@ use crate::figure::surfaces::{bounding_box, control_points, legend, legend_items
 const FIT_MARGIN: f64 = 60.0;
 /// Above this many points the single handles are not announced to assistive programs.
 const ANNOUNCED: usize = 200;
-/// Most weights that are written at their vertices.
-const MOST_WEIGHTS: usize = 40;
 
 /// The canvas of surfaces.
 #[derive(Debug, Default)]
@@ -87,7 +84,7 @@ impl Canvas {
         }
         let target = self.menu_target;
         response.context_menu(|ui| self.menu(target, lab, ui));
-        if bounding_box(lab.history.document()).is_none() {
+        if self.store.is_empty() {
             start::offer(rect, lab, ui);
         }
     }
@@ -205,15 +202,7 @@ impl Canvas {
         let Some(pointer) = ui.input(|input| input.pointer.latest_pos()) else { return };
         let (down, released) =
             ui.input(|input| (input.pointer.primary_down(), input.pointer.primary_released()));
-        let pressed_at = ui.input(|input| {
-            input.events.iter().find_map(|event| match *event {
-                egui::Event::PointerButton { pos, button: PointerButton::Primary, pressed: true, .. } => {
-                    Some(pos)
-                }
-                _ => None,
-            })
-        });
-        if let Some(at) = pressed_at
+        if let Some(at) = hands::pressed_at(ui)
             && rect.contains(at)
             && (response.contains_pointer() || response.is_pointer_button_down_on())
             && !self.view.is_moving_eye()
@@ -284,9 +273,9 @@ impl Canvas {
             self.paint_edge(lab, id, ends, &place, Stroke::new(3.5, ink), &painter);
         }
         if let Some(stencil) = self.stencil() {
-            paint_stencil(&stencil, lab, &place, &painter);
+            marks::paint_stencil(&stencil, lab, &place, &painter);
         }
-        paint_arrows(lab, view, rect, self.hovered, &painter);
+        marks::paint_arrows(lab, view, rect, self.hovered, &painter);
         if let Some(legend) = legend(self.store.shown(), &selected_view(lab)) {
             let mut picture = Picture::new(None);
             picture.push_layer("colour scale", legend_items(legend, view.size, theme));
@@ -328,8 +317,7 @@ impl Canvas {
             return Some(("Refining…".to_owned(), lab.theme.muted_text));
         }
         let untouched = lab.history.steps().0 <= 1 && lab.path.is_none() && lab.lesson.is_none();
-        let has_some = bounding_box(lab.history.document()).is_some();
-        (untouched && has_some).then(|| {
+        (untouched && !self.store.is_empty()).then(|| {
             let text = "Drag a round handle; hold X, Y or Z for an axis.  Middle drag turns, right drag moves, the wheel zooms.";
             (text.to_owned(), lab.theme.muted_text)
         })
@@ -409,62 +397,9 @@ fn shows_everything(lab: &Lab, rect: Rect) -> bool {
     inside(a.page) && inside(b.page) && a.page.distance(b.page) > 0.1 * view.size.min_element()
 }
 
-fn paint_stencil(
-    stencil: &StencilView,
-    lab: &Lab,
-    place: &dyn Fn(DVec3) -> Option<Pos2>,
-    painter: &egui::Painter,
-) {
-    let Some(at) = place(stencil.at) else { return };
-    let (ink, theme) = (color32(lab.theme.accent), &lab.theme);
-    let parents: Vec<(Pos2, f64)> =
-        stencil.parents.iter().filter_map(|&(_, parent, weight)| Some((place(parent)?, weight))).collect();
-    let largest = parents.iter().map(|parent| parent.1.abs()).fold(f64::MIN_POSITIVE, f64::max);
-    for &(parent, weight) in &parents {
-        let share = (weight.abs() / largest) as f32;
-        painter.line_segment(
-            [at, parent],
-            Stroke::new(1.0 + 1.5 * share, ink.gamma_multiply(0.3 + 0.5 * share)),
-        );
-        painter.circle(parent, 4.0 + 6.0 * share.sqrt(), ink.gamma_multiply(0.45), Stroke::new(1.5, ink));
-    }
-    painter.circle(at, 5.0, color32(theme.background), Stroke::new(3.0, ink));
-    if parents.len() <= MOST_WEIGHTS {
-        for (parent, weight) in parents {
-            let size = 12.0 * theme.text_scale as f32;
-            let at = parent + vec2(12.0, -8.0);
-            paint_note(
-                painter,
-                at,
-                Align2::LEFT_BOTTOM,
-                &weight_text(weight),
-                size,
-                theme.text,
-                theme.background,
-            );
-        }
-    }
-}
-
-fn paint_arrows(lab: &Lab, view: &EyeView, rect: Rect, hovered: Target, painter: &egui::Painter) {
-    for arrow in arrows(lab, view) {
-        let ink = color32(lab.theme.basis_color([5, 2, 0][arrow.axis]));
-        let (from, to) = (screen_from_page(rect, arrow.from), screen_from_page(rect, arrow.to));
-        let width = if hovered == Target::Arrow(arrow.axis) { 4.0 } else { 2.5 };
-        let way = (to - from).normalized();
-        painter.line_segment([from, to - way * 6.0], Stroke::new(width, ink));
-        let side = way.rot90() * 5.0;
-        let tip = vec![to + way * 4.0, to - way * 8.0 + side, to - way * 8.0 - side];
-        painter.add(egui::Shape::convex_polygon(tip, ink, Stroke::NONE));
-        let font = egui::FontId::proportional(11.0);
-        painter.text(to + way * 13.0, Align2::CENTER_CENTER, ["x", "y", "z"][arrow.axis], font, ink);
-    }
-}
-
 /// Arrow keys move the selected points along the axes that run most nearly so, Shift ten times as far, Ctrl a tenth.
 fn nudge(lab: &mut Lab, view: &EyeView, ui: &Ui) {
-    let keys_are_taken = ui.memory(|memory| memory.focused().is_some() || memory.top_modal_layer().is_some());
-    let Some(at) = center(lab).filter(|_| !keys_are_taken) else { return };
+    let Some(at) = center(lab) else { return };
     let axes = view.eye.axes();
     let nearest = |direction: DVec3| {
         let axis = direction.abs().max_position();
@@ -473,19 +408,10 @@ fn nudge(lab: &mut Lab, view: &EyeView, ui: &Ui) {
     let right = nearest(axes.right);
     // Never the same axis twice.
     let up = nearest(axes.up - right * axes.up.dot(right));
-    for (key, direction) in
-        [(Key::ArrowLeft, -right), (Key::ArrowRight, right), (Key::ArrowUp, up), (Key::ArrowDown, -up)]
-    {
-        for (keys, factor) in [(Modifiers::NONE, 1.0), (Modifiers::SHIFT, 10.0), (Modifiers::CTRL, 0.1)] {
-            let pressed = ui.input_mut(|input| {
-                let wanted = input.modifiers.shift == keys.shift && input.modifiers.ctrl == keys.ctrl;
-                wanted && input.consume_key(input.modifiers, key)
-            });
-            if pressed {
-                let delta = direction * (0.1 * fine_step(view, view.eye.depth(at)) * factor);
-                let points = lab.selection.points.clone();
-                commands::change(lab, "Move points", |content| commands::moved(content, &points, delta));
-            }
-        }
+    for (direction, factor) in hands::arrow_keys(ui) {
+        let delta =
+            (right * direction.x + up * direction.y) * (0.1 * fine_step(view, view.eye.depth(at)) * factor);
+        let points = lab.selection.points.clone();
+        commands::change(lab, "Move points", |content| commands::moved(content, &points, delta));
     }
 }

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use eframe::egui::{Key, Modifiers, Pos2, Rect, Ui};
 use glam::{DVec2, DVec3};
 
+use crate::app::hands::{self, DEAD_ZONE, SNAP_REACH};
 use crate::app::lab::Lab;
 use crate::app::scene_view::{Grip, Track, likeliest_axis, page_from_screen, screen_from_page};
 use crate::app::surfaces::Picked;
@@ -15,18 +16,12 @@ use crate::document::{Edit, Object};
 use crate::figure::picture::Viewport;
 use crate::figure::scene::EyeView;
 use crate::figure::surfaces::control_points;
-use crate::figure::ticks::grid_step;
-
-/// A press that moves less than this many pixels is a click and changes nothing.
-const DEAD_ZONE: f32 = 4.0;
-/// Pixels within which Ctrl snaps to the grid.
-const SNAP_REACH: f64 = 8.0;
 
 /// Distance of round coordinates that are easily told apart at this depth.
 pub(super) fn fine_step(view: &EyeView, depth: f64) -> f64 {
     let viewport =
         Viewport { center: DVec2::ZERO, scale: view.points_per_unit(depth.max(1e-12)), size: view.size };
-    grid_step(&viewport).map_or(1.0, |step| step.finer().size())
+    hands::fine_step(&viewport)
 }
 
 /// A press of the left button and what it has become.

@@ -16,6 +16,7 @@ mod canvas;
 pub(super) mod commands;
 mod gesture;
 mod inspector;
+mod marks;
 mod shape_store;
 mod start;
 mod stencil;

@@ -58,6 +58,11 @@ impl ShapeStore {
         self.shown.iter().filter_map(|id| self.shapes.get(id)).map(|(object, _, shape)| (&**object, &**shape))
     }
 
+    /// Whether there is nothing to show.
+    pub(super) fn is_empty(&self) -> bool {
+        self.shown.is_empty()
+    }
+
     /// Whether shapes are being computed.
     pub(super) fn is_busy(&self) -> bool {
         !self.asked.is_empty()

@@ -58,9 +58,10 @@ pub fn compose(
     picture
 }
 
-/// Whether `view` is in this room, or there is nothing else to show.
+/// Whether there is an approximation to show, and `view` is in this room or there is nothing else.
 pub fn is_shown(document: &Document, view: &View) -> bool {
-    view.workspace == ROOM || document.objects().iter().all(|object| object.approximation().is_some())
+    let nothing_else = || document.objects().iter().all(|object| object.approximation().is_some());
+    (view.workspace == ROOM || nothing_else()) && shown(document, view).is_some()
 }
 
 /// The page of `size` pt that shows what the room shows, if `view` is in this room or there is nothing else to show.

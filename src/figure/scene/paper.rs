@@ -212,7 +212,7 @@ struct End {
 }
 
 /// World length by which lines and marks may lie behind a surface.
-pub(crate) fn depth_slack(scene: &Scene) -> f64 {
+fn depth_slack(scene: &Scene) -> f64 {
     scene.bounding_box().map_or(0.0, |(low, high)| DEPTH_SLACK * low.distance(high))
 }
 

@@ -1,4 +1,5 @@
-//! What hands do in the same way on every plane canvas: pan and zoom, axis and grid while dragging, arrow keys.
+//! What hands do in the same way on every canvas: pressing, panning, axis and grid while dragging, arrow keys; and the camera of
+//! canvases that show the plane.
 
 use eframe::egui::{self, Key, Modifiers, PointerButton, Pos2, Rect, Ui};
 use glam::DVec2;
@@ -12,7 +13,7 @@ use crate::figure::ticks::grid_step;
 pub(crate) const DEAD_ZONE: f32 = 4.0;
 
 /// Pixels within which Ctrl snaps to the grid.
-const SNAP_REACH: f64 = 8.0;
+pub(crate) const SNAP_REACH: f64 = 8.0;
 
 /// Scales beyond these cannot be told from each other in f64 coordinates of ordinary size.
 const SCALES: std::ops::RangeInclusive<f64> = 1e-12..=1e14;
@@ -44,16 +45,8 @@ pub(crate) fn move_camera(
     ui: &Ui,
 ) {
     let size = DVec2::new(f64::from(rect.width()), f64::from(rect.height()));
-    let space = ui.input(|input| input.key_down(Key::Space)) && !ui.text_edit_focused();
-    let middle = ui.input(|input| input.pointer.button_down(PointerButton::Middle));
-    let primary = ui.input(|input| input.pointer.primary_down());
-    let pan_keys = middle || (space && primary);
-    if pan_keys && (*panning || response.contains_pointer()) && !busy {
-        *panning = true;
-        let moved = ui.input(|input| input.pointer.delta());
-        camera.center -= DVec2::new(f64::from(moved.x), -f64::from(moved.y)) / camera.scale;
-    } else {
-        *panning = false;
+    if let Some(moved) = panned(panning, busy, response, ui) {
+        camera.center -= moved / camera.scale;
     }
     let alt = ui.input(|input| input.modifiers.alt);
     let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta(), input.zoom_delta()));
@@ -67,6 +60,17 @@ pub(crate) fn move_camera(
         let after = world_from_screen(&viewport_of(camera, size), rect, pointer);
         camera.center += before - after;
     }
+}
+
+/// How far middle drag or Space and drag have moved the ground in this frame, y up; `None` if nobody pans. `busy` while
+/// something else is dragged.
+pub(crate) fn panned(panning: &mut bool, busy: bool, response: &egui::Response, ui: &Ui) -> Option<DVec2> {
+    let space = ui.input(|input| input.key_down(Key::Space)) && !ui.text_edit_focused();
+    let middle = ui.input(|input| input.pointer.button_down(PointerButton::Middle));
+    let primary = ui.input(|input| input.pointer.primary_down());
+    *panning = (middle || (space && primary)) && (*panning || response.contains_pointer()) && !busy;
+    let moved = ui.input(|input| input.pointer.delta());
+    panning.then(|| DVec2::new(f64::from(moved.x), -f64::from(moved.y)))
 }
 
 /// Where the left button went down in this frame: in a slow frame the pointer has moved on since.
@@ -109,9 +113,15 @@ pub(crate) fn constrained(mut delta: DVec2, grabbed: DVec2, viewport: &Viewport,
 /// The ways that the arrow keys pressed in this frame ask for: a tenth of the grid, with Shift ten times, with Ctrl a tenth
 /// of that. None while somebody types.
 pub(crate) fn nudges(viewport: &Viewport, ui: &Ui) -> Vec<DVec2> {
-    let mut nudges = Vec::new();
+    let step = 0.1 * fine_step(viewport);
+    arrow_keys(ui).into_iter().map(|(direction, factor)| direction * step * factor).collect()
+}
+
+/// The arrow keys pressed in this frame as directions, with 10 for Shift, 0.1 for Ctrl and else 1. None while somebody types.
+pub(crate) fn arrow_keys(ui: &Ui) -> Vec<(DVec2, f64)> {
+    let mut found = Vec::new();
     if ui.memory(|memory| memory.focused().is_some() || memory.top_modal_layer().is_some()) {
-        return nudges;
+        return found;
     }
     for (key, direction) in [
         (Key::ArrowLeft, -DVec2::X),
@@ -125,9 +135,9 @@ pub(crate) fn nudges(viewport: &Viewport, ui: &Ui) -> Vec<DVec2> {
                 wanted && input.consume_key(input.modifiers, key)
             });
             if pressed {
-                nudges.push(direction * 0.1 * fine_step(viewport) * factor);
+                found.push((direction, factor));
             }
         }
     }
-    nudges
+    found
 }

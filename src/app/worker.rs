@@ -56,7 +56,7 @@ impl<Q: Clone + Send + 'static, A: Send + 'static> Worker<Q, A> {
     pub(crate) fn ask(&mut self, request: Q, now: bool, ctx: &Context) {
         if !now && !self.has_thread {
             let (shared, work) = (Arc::clone(&self.shared), self.work);
-            let thread = std::thread::Builder::new().name("elements".to_owned());
+            let thread = std::thread::Builder::new().name("worker".to_owned());
             self.has_thread = thread.spawn(move || serve(&shared, work)).is_ok();
         }
         if now || !self.has_thread {

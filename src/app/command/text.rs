@@ -1,0 +1,111 @@
+//! The words of the commands.
+
+use crate::app::command::Command;
+
+impl Command {
+    /// The words of menu and palette, and what the tooltip adds.
+    pub fn text(self) -> (&'static str, &'static str) {
+        match self {
+            Self::New => ("New", "Start with an empty sheet"),
+            Self::Open => ("Open…", "Open a document, or a figure that was made from one"),
+            Self::Save => ("Save", "Save the document"),
+            Self::SaveAs => ("Save as…", "Save under another name"),
+            Self::ExportFigure => ("Export figure…", "Write what the canvas shows as SVG, PDF or PNG"),
+            Self::ImportData => {
+                ("Import data…", "Read a table of x and y, with weights if wanted, from a CSV file")
+            }
+            Self::ExportData => ("Export data…", "Write the data as a CSV file"),
+            Self::NewApproximation => {
+                ("New approximation", "Data, a function, and methods that approximate them")
+            }
+            Self::FirstScene => ("Show the first scene", "Open the scene that the lab starts with"),
+            Self::Quit => ("Quit", "Close the lab"),
+            Self::Undo => ("Undo", "Take back the last step"),
+            Self::Redo => ("Redo", "Do again what was taken back"),
+            Self::Delete => ("Delete", "Delete the selected points, knot or object"),
+            Self::Duplicate => ("Duplicate", "Copy the selected object"),
+            Self::SelectAll => ("Select all points", "Select every control point of the object"),
+            Self::Escape => ("Deselect", "Select nothing; leave the drawing tool"),
+            Self::SelectTool => ("Select tool", "Select and drag points, knots and curves"),
+            Self::DrawTool => {
+                ("Draw a curve", "Click control points; Enter or double click ends, Backspace drops the last")
+            }
+            Self::SelectDataTool => ("Select data", "Select and drag data and knots"),
+            Self::AddPointTool => ("Add points", "Click where data are to be"),
+            Self::SampleFunction => {
+                ("Sample the function", "Replace the data by as many values of the function, equally spaced")
+            }
+            Self::CycleErrorPlot => ("Error plot", "Linear, logarithmic, hidden in turn"),
+            Self::InsertKnot => ("Insert knot at t", "Insert a knot at the parameter; the shape is kept"),
+            Self::RemoveKnot => {
+                ("Remove knot", "Remove one copy of the selected knot; the deviation is measured")
+            }
+            Self::RefineUniformly => {
+                ("Refine all intervals", "Insert a knot in the middle of every interval; the shape is kept")
+            }
+            Self::ElevateDegree => ("Raise degree", "One degree up; the shape is kept"),
+            Self::ReduceDegree => ("Lower degree", "One degree down; the deviation is measured"),
+            Self::ToggleClosed => ("Close or open", "Close an open curve, open a closed one"),
+            Self::Reverse => ("Reverse direction", "Run through the curve the other way"),
+            Self::ResetWeights => ("All weights 1", "Make the curve polynomial"),
+            Self::ImportMesh => ("Import mesh…", "Add the mesh of an OBJ file to the document"),
+            Self::ExportMesh => ("Export mesh…", "Write the selected mesh as OBJ, refined as it is shown"),
+            Self::LevelUp => ("Refine", "One step of subdivision more"),
+            Self::LevelDown => ("Coarsen", "One step of subdivision fewer"),
+            Self::ToggleNet => ("Control net", "Show or hide the control net or mesh"),
+            Self::ToggleLines => {
+                ("Lines", "Show or hide the knot lines of a surface, the wireframe of a mesh")
+            }
+            Self::ToggleNormals => ("Normals", "Show or hide normals of a surface"),
+            Self::ToggleSmooth => ("Smooth light", "Light as on the smooth surface, or flat faces"),
+            Self::ToggleLimits => ("Limit points", "Show a mesh where its vertices tend to"),
+            Self::ToggleValences => ("Valences", "Mark inner vertices that have not four faces"),
+            Self::CycleColoring => {
+                ("Curvature colours", "None, Gaussian, mean, smaller and larger principal curvature in turn")
+            }
+            Self::RefineU => {
+                ("Refine u", "A knot more in the middle of every interval of u; the surface is kept")
+            }
+            Self::RefineV => {
+                ("Refine v", "A knot more in the middle of every interval of v; the surface is kept")
+            }
+            Self::ElevateU => ("Raise degree in u", "One degree more in u; the surface is kept"),
+            Self::ElevateV => ("Raise degree in v", "One degree more in v; the surface is kept"),
+            Self::ReverseU => ("Reverse u", "Run through u the other way; normals turn to the other side"),
+            Self::ReverseV => ("Reverse v", "Run through v the other way; normals turn to the other side"),
+            Self::ToggleParallel => ("Perspective", "Perspective or parallel projection"),
+            Self::ToggleField => ("Colours", "Colour the field, or only draw its lines"),
+            Self::ToggleIsolines => ("Isolines", "Lines of equal value"),
+            Self::ToggleNodes => ("Nodes", "The B-splines: inner ones filled, outer ones hollow"),
+            Self::ToggleCells => ("Cells", "The cells of the grid, cut ones marked"),
+            Self::ToggleQuadrature => ("Quadrature nodes", "Where integrands are evaluated"),
+            Self::RefineElements => ("Finer grid", "Halve the grid width"),
+            Self::CoarsenElements => ("Coarser grid", "Double the grid width"),
+            Self::RaiseElementDegree => ("Raise the degree of the elements", "One degree up"),
+            Self::LowerElementDegree => ("Lower the degree of the elements", "One degree down"),
+            Self::Fit => ("Fit", "Show everything"),
+            Self::ZoomIn => ("Zoom in", "Larger"),
+            Self::ZoomOut => ("Zoom out", "Smaller"),
+            Self::ToggleGrid => ("Grid", "Show or hide the grid"),
+            Self::TogglePolygon => ("Control polygon", "Show or hide the control polygon"),
+            Self::ToggleComb => ("Curvature comb", "Show or hide the curvature comb"),
+            Self::ToggleConstruction => ("Construction at t", "Show or hide de Boor's construction"),
+            Self::CycleLabels => ("Point labels", "None, index, weight, coordinates in turn"),
+            Self::ToggleHull => ("Convex hull at t", "Show or hide the hull of the active control points"),
+            Self::ToggleCircle => ("Circle of curvature", "Show or hide the osculating circle at t"),
+            Self::ToggleLeftPanel => ("Objects and lessons", "Show or hide the left panel"),
+            Self::ToggleRightPanel => ("Inspector and stepper", "Show or hide the right panel"),
+            Self::ToggleKnotLine => ("Knot line", "Show or hide the knot line"),
+            Self::LookLight => ("Light look", "Dark ink on a light ground"),
+            Self::LookDark => ("Dark look", "Light ink on a dark ground"),
+            Self::LookPresentation => ("Presentation look", "Large type and thick lines for a projector"),
+            Self::StepperPlay => ("Play the construction", "Play de Boor's algorithm step by step, or pause"),
+            Self::StepForward => ("Step forward", "The next step of the algorithm"),
+            Self::StepBack => ("Step back", "The step before"),
+            Self::NextLesson => ("Next lesson", "Open the next lesson of the course"),
+            Self::PreviousLesson => ("Previous lesson", "Open the lesson before"),
+            Self::Palette => ("Find a command…", "Type a few letters of what you want to do"),
+            Self::ShortcutSheet => ("Shortcuts", "All keys and what the mouse does"),
+        }
+    }
+}
