@@ -70,6 +70,7 @@ impl ShortcutSheet {
                                 keys(menu, &mut columns[0]);
                             }
                             keys(Menu::View, &mut columns[1]);
+                            keys(Menu::Approximation, &mut columns[1]);
                             hands(&mut columns[1]);
                         });
                     } else {

@@ -182,9 +182,10 @@ pub fn read_csv(text: &str) -> Result<Table, CsvError> {
         .comment(Some(b'#'))
         .from_reader(text.as_bytes());
     let mut record = csv::StringRecord::new();
+    let mut lines = LineCounter { text, offset: 0, line: 1 };
     // The text is valid, so that reading cannot fail.
     while records.read_record(&mut record).unwrap_or(false) {
-        let line = record.position().map_or(0, csv::Position::line);
+        let line = record.position().map_or(0, |position| lines.line_at(position.byte() as usize));
         let fields: Vec<&str> = record.iter().take(5).collect();
         reader.line(line, &fields)?;
     }
@@ -202,6 +203,32 @@ pub fn write_csv(sites: &[f64], values: &[f64], weights: Option<&[f64]>) -> Stri
         text.push('\n');
     }
     text
+}
+
+/// Counts lines from one record to the next.
+struct LineCounter<'a> {
+    text: &'a str,
+    offset: usize,
+    line: u64,
+}
+
+impl LineCounter<'_> {
+    /// The line of the record that the reader found from `byte` on: it passes over empty lines and remarks without telling.
+    fn line_at(&mut self, byte: usize) -> u64 {
+        let breaks = |part: &str| part.bytes().filter(|&byte| byte == b'\n').count() as u64;
+        self.line += breaks(self.text.get(self.offset..byte).unwrap_or_default());
+        self.offset = byte;
+        loop {
+            let rest = self.text.get(self.offset..).unwrap_or_default();
+            let end = rest.find('\n').map_or(rest.len(), |end| end + 1);
+            let line = &rest[..end];
+            if line.is_empty() || !(line.trim_end_matches(['\r', '\n']).is_empty() || line.starts_with('#')) {
+                return self.line;
+            }
+            self.offset += end;
+            self.line += 1;
+        }
+    }
 }
 
 /// What stands between columns.
