@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use eframe::egui::{Button, Frame, RichText, Role, Slider, Ui, WidgetInfo};
+use eframe::egui::{
+    Align, Button, Frame, Label, Layout, RichText, Role, Sense, Slider, Ui, WidgetInfo, vec2,
+};
 
 use crate::app::approximation::changes::{change, change_method, set};
 use crate::app::lab::Lab;
@@ -72,29 +74,27 @@ fn head(index: usize, method: &Method, lab: &mut Lab, ui: &mut Ui) {
             change_method(lab, index, word, |method| method.visible = visible);
         }
         let color = color32(lab.theme.basis_color(method.color));
-        let (rect, chip) =
-            ui.allocate_exact_size(eframe::egui::vec2(18.0, 14.0), eframe::egui::Sense::click());
+        let (rect, chip) = ui.allocate_exact_size(vec2(18.0, 14.0), Sense::click());
         chip.widget_info(|| {
             WidgetInfo::labeled(Role::Button, true, format!("Colour of method {}", index + 1))
         });
-        ui.painter().rect_filled(rect.shrink2(eframe::egui::vec2(0.0, 1.0)), 3.0, color);
+        ui.painter().rect_filled(rect.shrink2(vec2(0.0, 1.0)), 3.0, color);
         if chip.on_hover_text("Another colour").clicked() {
             let count = lab.theme.palette.len();
             change_method(lab, index, "Change colour", |method| method.color = (method.color + 1) % count);
         }
-        let wide = (ui.available_width() - 28.0).max(40.0);
-        ui.add_sized(
-            [wide, 18.0],
-            eframe::egui::Label::new(RichText::new(&title).strong())
-                .truncate()
-                .halign(eframe::egui::Align::Min),
-        );
-        let remove = ui.add(Button::new("×").small().frame_when_inactive(false));
-        remove
-            .widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Remove method {}", index + 1)));
-        if remove.on_hover_text("Remove this method").clicked() {
-            change(lab, format!("Remove {title}"), |all| all.without_method(index));
-        }
+        // From the right, so that a long name is cut rather than the panel widened.
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let remove = ui.add(Button::new("×").small().frame_when_inactive(false));
+            let label = format!("Remove method {}", index + 1);
+            remove.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
+            if remove.on_hover_text("Remove this method").clicked() {
+                change(lab, format!("Remove {title}"), |all| all.without_method(index));
+            }
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                ui.add(Label::new(RichText::new(&title).strong()).truncate());
+            });
+        });
     });
 }
 
@@ -163,7 +163,7 @@ fn cubic_ends(index: usize, ends: CubicEnds, approximation: &Approximation, lab:
         central.filter(|slope| slope.is_finite()).map_or(secant, |slope| (slope * 1e6).round() / 1e6)
     };
     ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().item_spacing = eframe::egui::vec2(3.0, 3.0);
+        ui.spacing_mut().item_spacing = vec2(3.0, 3.0);
         for (text, is, new) in [
             ("Not-a-knot", matches!(ends, CubicEnds::NotAKnot), CubicEnds::NotAKnot),
             ("Natural", matches!(ends, CubicEnds::Natural), CubicEnds::Natural),
@@ -215,7 +215,7 @@ fn degree_of(index: usize, degree: usize, scheme: &Scheme, knots: &KnotChoice, l
         ui.label("Degree");
         for (text, new, word) in [("−", degree.wrapping_sub(1), "Lower"), ("+", degree + 1, "Raise")] {
             let possible = (1..=MAX_DEGREE).contains(&new);
-            let button = ui.add_enabled(possible, Button::new(text).min_size(eframe::egui::vec2(22.0, 0.0)));
+            let button = ui.add_enabled(possible, Button::new(text).min_size(vec2(22.0, 0.0)));
             let label = format!("{word} degree of method {}", index + 1);
             button.widget_info(|| WidgetInfo::labeled(Role::Button, possible, &label));
             if button.clicked() {
