@@ -17,6 +17,10 @@ pub enum Command {
     SaveAs,
     /// Writes a figure of the canvas.
     ExportFigure,
+    /// Adds the mesh of an OBJ file.
+    ImportMesh,
+    /// Writes the selected mesh at the level shown.
+    ExportMesh,
     /// Reads data from a table.
     ImportData,
     /// Writes the data as a table.
@@ -67,6 +71,56 @@ pub enum Command {
     Reverse,
     /// All weights 1.
     ResetWeights,
+    /// One subdivision step more.
+    LevelUp,
+    /// One subdivision step fewer.
+    LevelDown,
+    /// Control net or mesh on or off.
+    ToggleNet,
+    /// Knot lines or wireframe on or off.
+    ToggleLines,
+    /// Normals on or off.
+    ToggleNormals,
+    /// Smooth or flat faces.
+    ToggleSmooth,
+    /// Limit points on or off.
+    ToggleLimits,
+    /// Valence marks on or off.
+    ToggleValences,
+    /// The next colouring.
+    CycleColoring,
+    /// More knots in u.
+    RefineU,
+    /// More knots in v.
+    RefineV,
+    /// Raises the degree in u.
+    ElevateU,
+    /// Raises the degree in v.
+    ElevateV,
+    /// Reverses u.
+    ReverseU,
+    /// Reverses v.
+    ReverseV,
+    /// Perspective or parallel projection.
+    ToggleParallel,
+    /// Colour the field, or only draw its lines.
+    ToggleField,
+    /// Lines of equal value.
+    ToggleIsolines,
+    /// The B-splines: inner ones filled, outer ones hollow.
+    ToggleNodes,
+    /// The cells of the grid, cut ones marked.
+    ToggleCells,
+    /// Where integrands are evaluated.
+    ToggleQuadrature,
+    /// Halve the grid width.
+    RefineElements,
+    /// Double the grid width.
+    CoarsenElements,
+    /// One degree up.
+    RaiseElementDegree,
+    /// One degree down.
+    LowerElementDegree,
     /// Fits everything into the canvas.
     Fit,
     /// Larger.
@@ -124,8 +178,12 @@ pub enum Menu {
     Edit,
     /// The selected curve.
     Curve,
+    /// The selected surface or mesh.
+    Surface,
     /// The selected approximation.
     Approximation,
+    /// The selected boundary value problem.
+    Problem,
     /// What is shown.
     View,
     /// Lessons and the stepper.
@@ -136,14 +194,25 @@ pub enum Menu {
 
 impl Menu {
     /// All menus.
-    pub const ALL: [Self; 7] =
-        [Self::File, Self::Edit, Self::Curve, Self::Approximation, Self::View, Self::Lesson, Self::Help];
+    pub const ALL: [Self; 9] = [
+        Self::File,
+        Self::Edit,
+        Self::Curve,
+        Self::Approximation,
+        Self::Surface,
+        Self::Problem,
+        Self::View,
+        Self::Lesson,
+        Self::Help,
+    ];
 
     /// The only room where the menu is shown; `None` if it is everywhere.
     pub fn room(self) -> Option<Room> {
         match self {
             Self::Curve => Some(Room::Curves),
+            Self::Surface => Some(Room::Surfaces),
             Self::Approximation => Some(Room::Approximation),
+            Self::Problem => Some(Room::Elements),
             _ => None,
         }
     }
@@ -154,7 +223,9 @@ impl Menu {
             Self::File => "File",
             Self::Edit => "Edit",
             Self::Curve => "Curve",
+            Self::Surface => "Surface",
             Self::Approximation => "Approximation",
+            Self::Problem => "Problem",
             Self::View => "View",
             Self::Lesson => "Lesson",
             Self::Help => "Help",
@@ -168,12 +239,14 @@ const COMMAND_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND }
 
 impl Command {
     /// All commands, in the order of menus, palette and sheet.
-    pub const ALL: [Self; 53] = [
+    pub const ALL: [Self; 80] = [
         Self::New,
         Self::Open,
         Self::Save,
         Self::SaveAs,
         Self::ExportFigure,
+        Self::ImportMesh,
+        Self::ExportMesh,
         Self::ImportData,
         Self::ExportData,
         Self::NewApproximation,
@@ -199,6 +272,31 @@ impl Command {
         Self::ToggleClosed,
         Self::Reverse,
         Self::ResetWeights,
+        Self::LevelUp,
+        Self::LevelDown,
+        Self::ToggleNet,
+        Self::ToggleLines,
+        Self::ToggleNormals,
+        Self::ToggleSmooth,
+        Self::ToggleLimits,
+        Self::ToggleValences,
+        Self::CycleColoring,
+        Self::RefineU,
+        Self::RefineV,
+        Self::ElevateU,
+        Self::ElevateV,
+        Self::ReverseU,
+        Self::ReverseV,
+        Self::ToggleParallel,
+        Self::ToggleField,
+        Self::ToggleIsolines,
+        Self::ToggleNodes,
+        Self::ToggleCells,
+        Self::ToggleQuadrature,
+        Self::RefineElements,
+        Self::CoarsenElements,
+        Self::RaiseElementDegree,
+        Self::LowerElementDegree,
         Self::Fit,
         Self::ZoomIn,
         Self::ZoomOut,
@@ -269,6 +367,41 @@ impl Command {
             Self::ToggleClosed => ("Close or open", "Close an open curve, open a closed one"),
             Self::Reverse => ("Reverse direction", "Run through the curve the other way"),
             Self::ResetWeights => ("All weights 1", "Make the curve polynomial"),
+            Self::ImportMesh => ("Import mesh…", "Add the mesh of an OBJ file to the document"),
+            Self::ExportMesh => ("Export mesh…", "Write the selected mesh as OBJ, refined as it is shown"),
+            Self::LevelUp => ("Refine", "One step of subdivision more"),
+            Self::LevelDown => ("Coarsen", "One step of subdivision fewer"),
+            Self::ToggleNet => ("Control net", "Show or hide the control net or mesh"),
+            Self::ToggleLines => {
+                ("Lines", "Show or hide the knot lines of a surface, the wireframe of a mesh")
+            }
+            Self::ToggleNormals => ("Normals", "Show or hide normals of a surface"),
+            Self::ToggleSmooth => ("Smooth light", "Light as on the smooth surface, or flat faces"),
+            Self::ToggleLimits => ("Limit points", "Show a mesh where its vertices tend to"),
+            Self::ToggleValences => ("Valences", "Mark inner vertices that have not four faces"),
+            Self::CycleColoring => {
+                ("Curvature colours", "None, Gaussian, mean, smaller and larger principal curvature in turn")
+            }
+            Self::RefineU => {
+                ("Refine u", "A knot more in the middle of every interval of u; the surface is kept")
+            }
+            Self::RefineV => {
+                ("Refine v", "A knot more in the middle of every interval of v; the surface is kept")
+            }
+            Self::ElevateU => ("Raise degree in u", "One degree more in u; the surface is kept"),
+            Self::ElevateV => ("Raise degree in v", "One degree more in v; the surface is kept"),
+            Self::ReverseU => ("Reverse u", "Run through u the other way; normals turn to the other side"),
+            Self::ReverseV => ("Reverse v", "Run through v the other way; normals turn to the other side"),
+            Self::ToggleParallel => ("Perspective", "Perspective or parallel projection"),
+            Self::ToggleField => ("Colours", "Colour the field, or only draw its lines"),
+            Self::ToggleIsolines => ("Isolines", "Lines of equal value"),
+            Self::ToggleNodes => ("Nodes", "The B-splines: inner ones filled, outer ones hollow"),
+            Self::ToggleCells => ("Cells", "The cells of the grid, cut ones marked"),
+            Self::ToggleQuadrature => ("Quadrature nodes", "Where integrands are evaluated"),
+            Self::RefineElements => ("Finer grid", "Halve the grid width"),
+            Self::CoarsenElements => ("Coarser grid", "Double the grid width"),
+            Self::RaiseElementDegree => ("Raise the degree of the elements", "One degree up"),
+            Self::LowerElementDegree => ("Lower the degree of the elements", "One degree down"),
             Self::Fit => ("Fit", "Show everything"),
             Self::ZoomIn => ("Zoom in", "Larger"),
             Self::ZoomOut => ("Zoom out", "Smaller"),
@@ -321,6 +454,25 @@ impl Command {
             Self::ElevateDegree => (NONE, Key::E),
             Self::ReduceDegree => (Modifiers::SHIFT, Key::E),
             Self::ToggleClosed => (NONE, Key::C),
+            Self::LevelUp => (NONE, Key::CloseBracket),
+            Self::LevelDown => (NONE, Key::OpenBracket),
+            Self::ToggleNet => (NONE, Key::P),
+            Self::ToggleLines => (NONE, Key::W),
+            Self::ToggleNormals => (NONE, Key::N),
+            Self::ToggleSmooth => (NONE, Key::S),
+            Self::ToggleLimits => (NONE, Key::L),
+            Self::ToggleValences => (NONE, Key::B),
+            Self::CycleColoring => (NONE, Key::U),
+            Self::ToggleParallel => (NONE, Key::O),
+            Self::ToggleField => (NONE, Key::U),
+            Self::ToggleIsolines => (NONE, Key::I),
+            Self::ToggleNodes => (NONE, Key::N),
+            Self::ToggleCells => (NONE, Key::C),
+            Self::ToggleQuadrature => (NONE, Key::Q),
+            Self::RefineElements => (NONE, Key::R),
+            Self::CoarsenElements => (Modifiers::SHIFT, Key::R),
+            Self::RaiseElementDegree => (NONE, Key::E),
+            Self::LowerElementDegree => (Modifiers::SHIFT, Key::E),
             Self::Fit => (NONE, Key::F),
             Self::ZoomIn => (COMMAND, Key::Plus),
             Self::ZoomOut => (COMMAND, Key::Minus),
@@ -344,7 +496,15 @@ impl Command {
             Self::PreviousLesson => (NONE, Key::PageUp),
             Self::Palette => (COMMAND, Key::P),
             Self::ShortcutSheet => (NONE, Key::F1),
-            Self::ImportData
+            Self::ImportMesh
+            | Self::ExportMesh
+            | Self::RefineU
+            | Self::RefineV
+            | Self::ElevateU
+            | Self::ElevateV
+            | Self::ReverseU
+            | Self::ReverseV
+            | Self::ImportData
             | Self::ExportData
             | Self::NewApproximation
             | Self::SampleFunction
@@ -358,7 +518,8 @@ impl Command {
     /// The only room where the command means something; `None` if it does everywhere.
     pub fn room(self) -> Option<Room> {
         match self {
-            Self::TogglePolygon
+            Self::ToggleGrid
+            | Self::TogglePolygon
             | Self::ToggleComb
             | Self::ToggleConstruction
             | Self::CycleLabels
@@ -368,6 +529,7 @@ impl Command {
             | Self::StepperPlay
             | Self::StepForward
             | Self::StepBack => Some(Room::Curves),
+            Self::ExportMesh => Some(Room::Surfaces),
             _ => self.menu().room(),
         }
     }
@@ -380,6 +542,8 @@ impl Command {
             | Self::Save
             | Self::SaveAs
             | Self::ExportFigure
+            | Self::ImportMesh
+            | Self::ExportMesh
             | Self::ImportData
             | Self::ExportData
             | Self::NewApproximation
@@ -398,9 +562,34 @@ impl Command {
             | Self::ToggleClosed
             | Self::Reverse
             | Self::ResetWeights => Menu::Curve,
+            Self::LevelUp
+            | Self::LevelDown
+            | Self::ToggleNet
+            | Self::ToggleLines
+            | Self::ToggleNormals
+            | Self::ToggleSmooth
+            | Self::ToggleLimits
+            | Self::ToggleValences
+            | Self::CycleColoring
+            | Self::RefineU
+            | Self::RefineV
+            | Self::ElevateU
+            | Self::ElevateV
+            | Self::ReverseU
+            | Self::ReverseV
+            | Self::ToggleParallel => Menu::Surface,
             Self::SelectDataTool | Self::AddPointTool | Self::SampleFunction | Self::CycleErrorPlot => {
                 Menu::Approximation
             }
+            Self::ToggleField
+            | Self::ToggleIsolines
+            | Self::ToggleNodes
+            | Self::ToggleCells
+            | Self::ToggleQuadrature
+            | Self::RefineElements
+            | Self::CoarsenElements
+            | Self::RaiseElementDegree
+            | Self::LowerElementDegree => Menu::Problem,
             Self::StepperPlay
             | Self::StepForward
             | Self::StepBack

@@ -4,8 +4,10 @@ use eframe::egui::Context;
 
 use crate::app::command::Command;
 use crate::app::lab::{Lab, Tool};
+use crate::app::surfaces::commands as surfaces;
+use crate::app::workspace::Room;
 use crate::app::{KNOT_LINE, LEFT_PANEL, RIGHT_PANEL};
-use crate::document::CurveDisplay;
+use crate::document::{CurveDisplay, MembraneDisplay};
 use crate::figure::composition::GRID;
 
 /// Largest degree of a curve in the window.
@@ -33,6 +35,9 @@ pub(crate) fn is_possible(command: Command, lab: &Lab) -> bool {
     if command.room().is_some_and(|room| room != lab.room()) {
         return false;
     }
+    if lab.room() == Room::Surfaces && (command.room().is_some() || command == Command::SelectAll) {
+        return surfaces::is_possible(command, lab);
+    }
     match command {
         Command::Undo => lab.history.undo_name().is_some(),
         Command::Redo => lab.history.redo_name().is_some(),
@@ -42,10 +47,21 @@ pub(crate) fn is_possible(command: Command, lab: &Lab) -> bool {
         Command::ElevateDegree => lab.curve().is_some_and(|curve| curve.degree() < HIGHEST_DEGREE),
         Command::ReduceDegree => lab.curve().is_some_and(|curve| curve.degree() > 1),
         Command::ResetWeights => lab.curve().is_some_and(|curve| !curve.is_polynomial()),
-        Command::SelectAll => lab.curve().is_some() || lab.approximation().is_some(),
+        Command::SelectAll => {
+            lab.curve().is_some() || lab.approximation().is_some() || problem(lab).is_some()
+        }
         Command::ExportData => lab.approximation().is_some_and(|data| !data.is_empty()),
         Command::CycleErrorPlot => lab.approximation().is_some(),
         Command::SampleFunction => lab.approximation().is_some_and(|data| data.function().is_some()),
+        Command::ToggleField
+        | Command::ToggleIsolines
+        | Command::ToggleNodes
+        | Command::ToggleCells
+        | Command::ToggleQuadrature
+        | Command::RefineElements
+        | Command::CoarsenElements
+        | Command::RaiseElementDegree
+        | Command::LowerElementDegree => problem(lab).is_some(),
         Command::InsertKnot
         | Command::RefineUniformly
         | Command::ToggleClosed
@@ -63,6 +79,12 @@ pub(crate) fn is_possible(command: Command, lab: &Lab) -> bool {
     }
 }
 
+/// How the selected boundary value problem is shown.
+fn problem(lab: &Lab) -> Option<&MembraneDisplay> {
+    let object = lab.history.document().object(lab.selection.object?)?;
+    object.membrane().map(|(_, display)| display)
+}
+
 /// Whether what `command` switches is on; `None` for a command that switches nothing.
 pub(crate) fn is_on(command: Command, lab: &Lab) -> Option<bool> {
     let panel = |name: &str| lab.view.panels.get(name).copied().unwrap_or(true);
@@ -70,7 +92,13 @@ pub(crate) fn is_on(command: Command, lab: &Lab) -> Option<bool> {
         let object = lab.selection.object.and_then(|id| lab.history.document().object(id));
         object.and_then(|object| object.curve_display()).is_some_and(choice)
     };
+    let field = |choice: fn(&MembraneDisplay) -> bool| problem(lab).is_some_and(choice);
     Some(match command {
+        Command::ToggleField => field(|display| display.fill),
+        Command::ToggleIsolines => field(|display| display.isolines > 0),
+        Command::ToggleNodes => field(|display| display.nodes),
+        Command::ToggleCells => field(|display| display.cells),
+        Command::ToggleQuadrature => field(|display| display.quadrature),
         Command::SelectTool => lab.tool == Tool::Select,
         Command::DrawTool => lab.tool == Tool::Draw,
         Command::SelectDataTool => lab.tool != Tool::AddPoint,
@@ -88,6 +116,6 @@ pub(crate) fn is_on(command: Command, lab: &Lab) -> Option<bool> {
         Command::LookDark => lab.theme.name == "dark",
         Command::LookPresentation => lab.theme.name == "presentation",
         Command::ToggleClosed => lab.curve().is_some_and(|curve| curve.space().is_periodic()),
-        _ => return None,
+        _ => return surfaces::is_on(command, lab),
     })
 }

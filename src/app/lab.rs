@@ -148,6 +148,8 @@ pub struct Lab {
     pub commands: Vec<Command>,
     /// Size of the canvas in points in the last frame.
     pub canvas_size: DVec2,
+    /// Whether long work is done within the frame instead of beside it: for tests, which then need not wait.
+    pub at_once: bool,
 }
 
 impl Lab {
@@ -172,6 +174,7 @@ impl Lab {
             messages: Vec::new(),
             commands: Vec::new(),
             canvas_size: DVec2::new(800.0, 600.0),
+            at_once: false,
         }
     }
 
@@ -306,11 +309,8 @@ impl Lab {
             let at_home = document.objects().iter().rfind(|object| Room::of(&object.content) == room);
             self.selection.object = at_home.map(|object| object.id);
         }
-        let count = match (self.curve(), self.approximation()) {
-            (Some(curve), _) => curve.points().len(),
-            (None, Some(data)) => data.len(),
-            (None, None) => 0,
-        };
+        let object = self.selection.object.and_then(|id| document.object(id));
+        let count = object.map_or(0, |object| object.content.point_count());
         self.selection.points.retain(|&point| point < count);
         if let Some(knot) = self.selection.knot
             && self.curve().is_none_or(|curve| curve.space().multiplicity(knot) == 0)

@@ -12,6 +12,7 @@ mod approximation;
 mod command_state;
 mod curves;
 mod dialog;
+mod elements;
 mod file_dialog;
 mod files;
 mod formula_view;
@@ -27,11 +28,15 @@ mod object_list;
 mod painter;
 mod palette;
 mod path_dialog;
+mod plane_hands;
 mod preferences;
+#[allow(dead_code, unused_imports, reason = "the rooms of space use it")]
+mod scene_view;
 mod shortcut_sheet;
 mod smoke_log;
 mod status_bar;
 mod stepper_panel;
+mod surfaces;
 #[cfg(test)]
 mod test_bench;
 mod text_field;

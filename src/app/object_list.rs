@@ -30,6 +30,8 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
             let (word, command) = match lab.room() {
                 Room::Curves => ("New curve", Command::DrawTool),
                 Room::Approximation => ("New", Command::NewApproximation),
+                Room::Surfaces => ("Import mesh", Command::ImportMesh),
+                Room::Elements => ("Fit", Command::Fit),
             };
             if ui.add(Button::new(word).small()).on_hover_text(command.text().1).clicked() {
                 lab.commands.push(command);

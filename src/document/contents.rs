@@ -59,12 +59,15 @@ impl Document {
         ObjectId(self.made + 1)
     }
 
-    /// Smallest and largest coordinates of the control points of the visible curves; weights are positive, so the
-    /// curves lie inside. `None` if none is visible.
+    /// Smallest and largest coordinates of the control points of the visible curves and of the regions of visible boundary
+    /// value problems; weights are positive, so the curves lie inside. `None` if none is visible.
     pub fn bounding_box(&self) -> Option<(DVec2, DVec2)> {
         let visible = self.objects.iter().filter(|object| object.visible);
-        let points =
-            visible.filter_map(|object| object.curve()).flat_map(|curve| curve.points().iter().copied());
+        let points = visible.flat_map(|object| {
+            let curve = object.curve().map(|curve| curve.points().to_vec());
+            let region = object.membrane().and_then(|(membrane, _)| membrane.bounding_box());
+            curve.or(region.map(|(low, high)| vec![low, high])).unwrap_or_default()
+        });
         points.fold(None, |bounds, point| {
             Some(
                 bounds

@@ -15,11 +15,14 @@ mod eye;
 mod file_error;
 mod history;
 mod json;
+mod membrane;
+mod mesh;
 mod object;
 mod outcome;
 mod recovery;
 mod samples;
 mod storage;
+mod surface;
 mod view;
 
 pub use approximation::{
@@ -34,9 +37,15 @@ pub use eye::{EyeError, EyeState};
 pub use file_error::FileError;
 pub use history::{DEFAULT_BUDGET, History};
 pub use json::{EXTENSION, FORMAT_VERSION, from_json, to_json};
+pub use membrane::{
+    FieldColors, HandleId, Membrane, MembraneDisplay, MembraneError, MembranePreset, Operation, Part, Region,
+    Setting, Shape, Shown, VARIABLES, read_formula,
+};
+pub use mesh::{MeshDisplay, MeshObject};
 pub use object::{Content, Object, ObjectId};
 pub use outcome::{Outcome, ShapeChange};
 pub use recovery::{Autosave, Damaged, Recovered};
 pub use samples::first_scene;
 pub use storage::{MAX_FILE_BYTES, load, save};
+pub use surface::{SurfaceColoring, SurfaceDisplay, SurfaceObject};
 pub use view::{Camera, PlotWindow, Saved, View};

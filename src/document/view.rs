@@ -15,6 +15,8 @@ use crate::document::object::ObjectId;
 pub struct View {
     /// Where the canvas looks.
     pub camera: Camera,
+    /// Where the canvases of rooms with a plane of their own look, by [`Self::workspace`].
+    pub cameras: BTreeMap<String, Camera>,
     /// Where space is looked at from.
     pub eye: EyeState,
     /// The ranges that the plots of each approximation show; those without an entry show everything.
@@ -31,6 +33,13 @@ pub struct View {
     pub selected_object: Option<ObjectId>,
     /// The selected control points of that object.
     pub selected_points: Vec<usize>,
+}
+
+impl View {
+    /// The plane camera of the open workspace.
+    pub fn room_camera(&self) -> Camera {
+        self.cameras.get(&self.workspace).copied().unwrap_or(self.camera)
+    }
 }
 
 /// A plane camera without rotation.

@@ -182,14 +182,20 @@ pub fn read_csv(text: &str) -> Result<Table, CsvError> {
         .comment(Some(b'#'))
         .from_reader(text.as_bytes());
     let mut record = csv::StringRecord::new();
-    let mut lines = LineCounter { text, offset: 0, line: 1 };
     // The text is valid, so that reading cannot fail.
     while records.read_record(&mut record).unwrap_or(false) {
-        let line = record.position().map_or(0, |position| lines.line_at(position.byte() as usize));
+        let line = record.position().map_or(0, |start| line_of_record(text, start));
         let fields: Vec<&str> = record.iter().take(5).collect();
         reader.line(line, &fields)?;
     }
     reader.finish()
+}
+
+/// The line of the record that is read from `start` on: empty lines and comments before it are passed over.
+fn line_of_record(text: &str, start: &csv::Position) -> u64 {
+    let rest = usize::try_from(start.byte()).ok().and_then(|byte| text.get(byte..)).unwrap_or_default();
+    let passed = rest.lines().take_while(|line| line.is_empty() || line.starts_with('#')).count();
+    start.line() + passed as u64
 }
 
 /// Writes a table: a line of titles, then a line for each datum; commas separate, points are decimal signs, and reading gives the same numbers.
@@ -203,32 +209,6 @@ pub fn write_csv(sites: &[f64], values: &[f64], weights: Option<&[f64]>) -> Stri
         text.push('\n');
     }
     text
-}
-
-/// Counts lines from one record to the next.
-struct LineCounter<'a> {
-    text: &'a str,
-    offset: usize,
-    line: u64,
-}
-
-impl LineCounter<'_> {
-    /// The line of the record that the reader found from `byte` on: it passes over empty lines and remarks without telling.
-    fn line_at(&mut self, byte: usize) -> u64 {
-        let breaks = |part: &str| part.bytes().filter(|&byte| byte == b'\n').count() as u64;
-        self.line += breaks(self.text.get(self.offset..byte).unwrap_or_default());
-        self.offset = byte;
-        loop {
-            let rest = self.text.get(self.offset..).unwrap_or_default();
-            let end = rest.find('\n').map_or(rest.len(), |end| end + 1);
-            let line = &rest[..end];
-            if line.is_empty() || !(line.trim_end_matches(['\r', '\n']).is_empty() || line.starts_with('#')) {
-                return self.line;
-            }
-            self.offset += end;
-            self.line += 1;
-        }
-    }
 }
 
 /// What stands between columns.

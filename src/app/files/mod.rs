@@ -19,12 +19,12 @@ use crate::app::file_dialog::{self, Answer, FileDialog, Purpose, Request};
 use crate::app::lab::Lab;
 use crate::app::preferences::{self, Preferences};
 use crate::app::sheet::Sheet;
-use crate::document::{self, Document, EXTENSION, Recovered, Saved, View};
+use crate::document::{self, Content, Document, EXTENSION, Edit, Recovered, Saved, View};
 use crate::exchange::by_ending::{self, FIGURE_ENDINGS, FigureFormat};
 use crate::exchange::csv::{CsvError, read_csv_file, write_csv};
-use crate::figure::approximation;
-use crate::figure::composition::compose;
+use crate::figure::page::page;
 use crate::figure::picture::Viewport;
+use crate::figure::surfaces;
 use crate::figure::theme::Theme;
 
 use keeper::Keeper;
@@ -53,6 +53,8 @@ enum Wanted {
     Open,
     Save(Option<Then>),
     Figure,
+    Mesh,
+    MeshOut,
     Data,
     DataCopy,
 }
@@ -162,6 +164,8 @@ impl Files {
                 None => self.ask_for_file(Wanted::Save(None), lab),
             },
             Command::SaveAs => self.ask_for_file(Wanted::Save(None), lab),
+            Command::ImportMesh => self.ask_for_file(Wanted::Mesh, lab),
+            Command::ExportMesh => self.ask_for_file(Wanted::MeshOut, lab),
             Command::ExportFigure => self.ask_for_file(Wanted::Figure, lab),
             Command::ImportData => self.ask_for_file(Wanted::Data, lab),
             Command::ExportData => self.ask_for_file(Wanted::DataCopy, lab),
@@ -207,7 +211,8 @@ impl Files {
         let folder =
             of_document.or_else(|| self.last_folder.clone()).or_else(|| std::env::current_dir().ok());
         let folder = folder.unwrap_or_else(|| PathBuf::from("/"));
-        let documents: &'static [&'static str] = &[EXTENSION, "svg"];
+        let documents: &'static [&'static str] = &[EXTENSION, "svg", by_ending::MESH_ENDING];
+        let meshes = &documents[2..];
         let (purpose, title, kind, extensions, file_name) = match &wanted {
             Wanted::Open => (Purpose::Open, "Open a document", "documents", documents, String::new()),
             Wanted::Save(_) => (
@@ -217,6 +222,8 @@ impl Files {
                 &documents[..1],
                 format!("{name}.{EXTENSION}"),
             ),
+            Wanted::Mesh => (Purpose::Open, "Import a mesh", "meshes", meshes, String::new()),
+            Wanted::MeshOut => (Purpose::Save, "Export the mesh", "meshes", meshes, format!("{name}.obj")),
             Wanted::Figure => {
                 (Purpose::Save, "Export a figure", "figures", FIGURE_ENDINGS, format!("{name}.svg"))
             }
@@ -234,7 +241,8 @@ impl Files {
         let Answer::Path(path) = answer else { return };
         self.last_folder = path.parent().map(Path::to_owned);
         match wanted {
-            Wanted::Open => self.open(&path, lab),
+            Wanted::Open | Wanted::Mesh => self.open(&path, lab),
+            Wanted::MeshOut => self.export_mesh(&path, lab),
             Wanted::Figure => self.export(path, lab),
             Wanted::Data => self.import_data(&path, lab),
             Wanted::DataCopy => self.export_data(&path, lab),
@@ -347,7 +355,48 @@ impl Files {
         }
     }
 
+    /// Adds the mesh of a file to the document, as one step.
+    fn import_mesh(&mut self, path: &Path, lab: &mut Lab) {
+        match by_ending::read_mesh(path) {
+            Ok((name, mesh)) => {
+                let is_first = surfaces::bounding_box(lab.history.document()).is_none();
+                let made = lab.edit(Edit::AddObject { name, content: Content::Mesh(mesh) });
+                if let Some(&id) = made.as_ref().and_then(|made| made.created.first()) {
+                    lab.select(id);
+                    if is_first {
+                        lab.commands.push(Command::Fit);
+                    }
+                }
+            }
+            Err(error) => {
+                self.problems.push(Problem::new("This mesh cannot be imported", error.to_string()));
+            }
+        }
+    }
+
+    /// Writes the selected mesh at the level that is shown.
+    fn export_mesh(&mut self, path: &Path, lab: &mut Lab) {
+        let object = lab.selection.object.and_then(|id| lab.history.document().object(id));
+        let Some(mesh) = object.and_then(|object| object.mesh()) else {
+            lab.problem("Select a mesh first.");
+            return;
+        };
+        let written = mesh.steps().map_err(|error| error.to_string()).and_then(|steps| {
+            let refined = steps.last().map_or(mesh.cage(), |step| &step.mesh);
+            let text = crate::exchange::obj::write(refined);
+            by_ending::write_file(path, text.as_bytes()).map_err(|error| error.to_string())
+        });
+        match written {
+            Ok(()) => lab.done(format!("Mesh written to {}", name_of(path))),
+            Err(error) => self.problems.push(Problem::new("The mesh was not written", error)),
+        }
+    }
+
     fn open(&mut self, path: &Path, lab: &mut Lab) {
+        if by_ending::is_mesh(path) {
+            self.import_mesh(path, lab);
+            return;
+        }
         if let Some(then) = self.read(path) {
             self.proceed(then, lab);
         }
@@ -378,13 +427,17 @@ impl Files {
             }
         };
         let (document, view, theme) = (lab.history.document().clone(), view_to_save(lab), lab.theme.clone());
-        let camera = lab.view.camera;
+        let camera = lab.view.room_camera();
         let viewport = Viewport { center: camera.center, scale: camera.scale, size: lab.canvas_size };
         let (send, receive) = mpsc::channel();
         let write = move || {
-            let page = approximation::page(&document, &view, &theme, viewport.size);
-            let (picture, viewport) =
-                page.unwrap_or_else(|| (compose(&document, &view, &theme, &viewport), viewport));
+            let (picture, viewport) = match page(&document, &view, &theme, &viewport) {
+                Ok(page) => page,
+                Err(error) => {
+                    let _ = send.send(Err(error.to_string()));
+                    return;
+                }
+            };
             let written = by_ending::figure(format, &picture, &viewport, &document, &view, PNG_SCALE)
                 .and_then(|bytes| by_ending::write_file(&path, &bytes));
             // Nobody listens any more when the window has been closed meanwhile.

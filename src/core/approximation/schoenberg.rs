@@ -130,7 +130,8 @@ mod tests {
             let value = schoenberg(space.clone(), |x| (3.0 * x).sin()).unwrap().evaluate(x).unwrap();
             prop_assert!(value.abs() <= 1.0, "|{}| > 1", value);
             let (low, high) = schoenberg_interval(&space, x).unwrap();
-            prop_assert!(low <= high && high - low <= 2.0 * (right - left) * space.degree() as f64, "{} {}", low, high);
+            let knots = space.evaluation_knots();
+            prop_assert!(low <= high && high - low <= knots[knots.len() - 1] - knots[0], "{} {}", low, high);
         }
     }
 

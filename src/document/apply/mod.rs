@@ -79,9 +79,7 @@ impl Document {
                         *shown = display.clone();
                         Ok(ShapeChange::None)
                     }
-                    other => {
-                        Err(EditError::OtherKind { object: *object, kind: other.kind(), wanted: "curve" })
-                    }
+                    _ => Err(not_a_curve(found)),
                 })
             }
             Edit::MovePoints { object, points, delta } => {
@@ -179,13 +177,7 @@ impl Document {
         change: impl FnOnce(&Nurbs<DVec2>) -> Result<(Nurbs<DVec2>, ShapeChange), EditError>,
     ) -> Result<Outcome, EditError> {
         self.change(id, |object| {
-            let Content::Curve { curve, .. } = &mut object.content else {
-                return Err(EditError::OtherKind {
-                    object: id,
-                    kind: object.content.kind(),
-                    wanted: "curve",
-                });
-            };
+            let Content::Curve { curve, .. } = &mut object.content else { return Err(not_a_curve(object)) };
             let (new, shape) = change(curve)?;
             check_point_count(new.points().len())?;
             *curve = new;
@@ -224,11 +216,17 @@ fn check_content(content: &Content) -> Result<(), EditError> {
             check_point_count(curve.points().len())
         }
         // Valid by construction.
-        Content::Approximation(_) => Ok(()),
+        Content::Approximation(_) | Content::Surface(_) | Content::Mesh(_) => Ok(()),
+        Content::Membrane { display, .. } => display.check(),
     }
 }
 
-fn check_point_count(count: usize) -> Result<(), EditError> {
+fn not_a_curve(object: &Object) -> EditError {
+    EditError::OtherKind { object: object.id, kind: object.content.kind(), wanted: "curve" }
+}
+
+/// Whether an object may have so many control points.
+pub(in crate::document) fn check_point_count(count: usize) -> Result<(), EditError> {
     if count > MAX_POINTS {
         return Err(EditError::TooMany { what: "control points", value: count, limit: MAX_POINTS });
     }

@@ -58,9 +58,14 @@ pub fn compose(
     picture
 }
 
+/// Whether `view` is in this room, or there is nothing else to show.
+pub fn is_shown(document: &Document, view: &View) -> bool {
+    view.workspace == ROOM || document.objects().iter().all(|object| object.approximation().is_some())
+}
+
 /// The page of `size` pt that shows what the room shows, if `view` is in this room or there is nothing else to show.
 pub fn page(document: &Document, view: &View, theme: &Theme, size: DVec2) -> Option<(Picture, Viewport)> {
-    if view.workspace != ROOM && document.objects().iter().any(|object| object.approximation().is_none()) {
+    if !is_shown(document, view) {
         return None;
     }
     let object = shown(document, view)?;

@@ -10,6 +10,7 @@ use glam::DVec2;
 
 use crate::core::spline_curve::Nurbs;
 use crate::document::{Content, CurveDisplay, Document, Object, View};
+use crate::figure::elements;
 use crate::figure::picture::{Picture, Viewport};
 use crate::figure::theme::Theme;
 use crate::figure::ticks::{grid_labels, grid_lines};
@@ -29,8 +30,11 @@ pub struct Composition {
     pub transparent: bool,
 }
 
-/// The picture of all visible objects of `document` for `viewport`.
+/// The picture of `document` for `viewport` as the room that `view` names shows it; in the first room that of all visible curves.
 pub fn compose(document: &Document, view: &View, theme: &Theme, viewport: &Viewport) -> Picture {
+    if elements::is_shown(document, view) {
+        return elements::compose(document, view, theme, viewport);
+    }
     compose_with(document, view, theme, viewport, &Composition::default())
 }
 
