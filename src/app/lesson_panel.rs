@@ -6,7 +6,7 @@ use crate::app::command::Command;
 use crate::app::lab::{Lab, LessonState};
 use crate::app::painter::color32;
 use crate::app::{files, formula_view};
-use crate::course::{Answer, Task, lessons};
+use crate::course::{Answer, FitTask, Task, lessons};
 
 /// Shows the lessons in the order of the course; a click opens one.
 pub(crate) fn show_list(lab: &mut Lab, ui: &mut Ui) {
@@ -112,7 +112,7 @@ fn question(lab: &mut Lab, ui: &mut Ui, state: &mut LessonState) {
         formula_view::rich_paragraph(ui, &question.prompt);
         let mut asked = None;
         match question.task {
-            Task::Number { .. } => {
+            Task::Number { .. } | Task::Fit { asked: FitTask::Value { .. } | FitTask::ViolatingSite, .. } => {
                 ui.horizontal(|ui| {
                     let width = (ui.available_width() - 72.0).clamp(60.0, 160.0);
                     let edit =
@@ -141,7 +141,7 @@ fn question(lab: &mut Lab, ui: &mut Ui, state: &mut LessonState) {
                     asked = place.map(Answer::Point);
                 }
             }
-            Task::Shape { .. } => {
+            Task::Shape { .. } | Task::Fit { asked: FitTask::ErrorBelow { .. }, .. } => {
                 if ui.button("Check the curve").clicked() {
                     asked = Some(Answer::Curve);
                 }

@@ -12,8 +12,12 @@ use crate::course::question::Question;
 use crate::document::{Document, FileError, View, from_json};
 
 /// The lesson files in the course's order, with their names.
-const FILES: [(&str, &str); 1] =
-    [("4.5-de-boor.json", include_str!("../../assets/lessons/4.5-de-boor.json"))];
+const FILES: [(&str, &str); 4] = [
+    ("4.5-de-boor.json", include_str!("../../assets/lessons/4.5-de-boor.json")),
+    ("5.1-schoenberg.json", include_str!("../../assets/lessons/5.1-schoenberg.json")),
+    ("5.5-interpolation.json", include_str!("../../assets/lessons/5.5-interpolation.json")),
+    ("5.6-smoothing.json", include_str!("../../assets/lessons/5.6-smoothing.json")),
+];
 
 /// A lesson, ready to be opened.
 #[derive(Clone, Debug)]

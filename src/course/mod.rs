@@ -11,5 +11,5 @@ pub mod question;
 pub mod stepper;
 
 pub use lesson::{Lesson, LessonError, TextPart, lessons, text_parts};
-pub use question::{Answer, Question, Task, Verdict};
+pub use question::{Answer, FitTask, Question, Task, Verdict};
 pub use stepper::{Entry, Frame, Stepper, de_boor_stepper, de_casteljau_stepper};

@@ -269,12 +269,57 @@ def run(program, start, folder):
         lab.end()
 
 
+def run_approximation(program, start, folder):
+    """A datum and a knot of the Approximation room."""
+    document = folder / "approximation.spline"
+    shutil.copyfile(start, document)
+    lab = Lab(program, document, folder, "approximation")
+
+    def settled(what, holds=lambda event: True):
+        """The last line once its handles have stood still for half a second and it satisfies `holds`."""
+        end = time.monotonic() + DEADLINE
+        last, since = None, time.monotonic()
+        while time.monotonic() < end:
+            lines = [event for event in lab.events() if event.get("handles")]
+            now = lines[-1] if lines and holds(lines[-1]) else None
+            if now != last:
+                last, since = now, time.monotonic()
+            elif now is not None and time.monotonic() - since > 0.5:
+                return now
+            time.sleep(PAUSE)
+        raise Failed(f"waited {DEADLINE:.0f} s for {what}")
+
+    try:
+        lab.wait("the window", lambda events: any(event["event"] == "ready" for event in events))
+        lab.window = lab.wait("the window", lambda _: lab.find_window())
+        tool("xdotool", "windowmove", lab.window, 0, 0)
+        tool("xdotool", "windowfocus", "--sync", lab.window)
+        first = settled("the data")
+        check("the file opens in its room", first["room"] == "Approximation", f"{first['room']}")
+        for name, step in [("Datum 2 of Wave", (0, -40)), ("Knot 0 of method 2 of Wave", (30, 0))]:
+            before = settled(name)
+            lab.drag(before["handles"][name], step)
+            after = settled(f"the drag of {name}", lambda event: event["revision"] != before["revision"])
+            (x, y), (new_x, new_y) = before["handles"][name], after["handles"][name]
+            way = (new_x - x, new_y - y)
+            check(f"{name} follows the mouse", math.dist(way, step) < 3, f"{way} instead of {step}")
+            lab.key("ctrl+z")
+            undone = settled(f"undo of {name}", lambda event: event["redo"] is not None)
+            check(f"Ctrl+Z brings {name} back", undone["handles"][name] == [x, y], f"{undone['handles'][name]}")
+        check_screenshot("the picture of the Approximation room", folder / "approximation.png")
+        status = lab.quit()
+        check("the room closes", status == 0, f"exit status {status}")
+    finally:
+        lab.end()
+
+
 def main():
     """Runs the checks and says how many passed."""
     program, start, folder = sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3])
     failure = None
     try:
         run(program, start, folder)
+        run_approximation(program, start.with_name("approximation.spline"), folder)
     except (Failed, subprocess.TimeoutExpired, KeyError, ValueError) as error:
         failure = f"{type(error).__name__}: {error}"
         print(f"smoke: FAILED  {failure}", flush=True)

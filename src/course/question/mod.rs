@@ -4,6 +4,7 @@
 //! [`Question::check`] computes the right answer from the document and gives a [`Verdict`]; a wrong answer gets a hint
 //! drawn from the fact that it violates.
 
+mod fit;
 mod number;
 mod place_point;
 mod shape_goal;
@@ -16,6 +17,7 @@ use crate::course::number_text::parse_number;
 use crate::course::stepper::{Entry, Stepper, de_boor_stepper};
 use crate::document::{Document, ObjectId};
 
+pub use fit::FitTask;
 pub use number::{Axis, Quantity};
 pub use shape_goal::Goal;
 
@@ -60,6 +62,13 @@ pub enum Task {
         /// The goal.
         goal: Goal,
     },
+    /// Something about a method of an approximation.
+    Fit {
+        /// The method, numbered from 0.
+        method: usize,
+        /// What.
+        asked: FitTask,
+    },
 }
 
 /// What the learner answers.
@@ -100,6 +109,12 @@ impl Question {
     ///
     /// An answer of the wrong kind, or a document without the curve, gets a verdict that says so.
     pub fn check(&self, document: &Document, answer: &Answer) -> Verdict {
+        if let Task::Fit { method, asked } = &self.task {
+            return match document.approximation(ObjectId(self.object)) {
+                Some(data) => fit::check(data, *method, asked, answer, &self.feedback),
+                None => Verdict::wrong(None, "The data of this question are gone. Open the lesson again."),
+            };
+        }
         let Some(curve) = document.curve(ObjectId(self.object)) else {
             return Verdict::wrong(None, "The curve of this question is gone. Open the lesson again.");
         };
@@ -114,12 +129,19 @@ impl Question {
             }
             (Task::Shape { goal }, _) => shape_goal::check(document, curve, goal, &self.feedback),
             (Task::Number { .. }, _) => Verdict::wrong(None, "Type a number."),
-            (Task::PlacePoint { .. }, _) => Verdict::wrong(None, "Place the point in the picture."),
+            (Task::PlacePoint { .. } | Task::Fit { .. }, _) => {
+                Verdict::wrong(None, "Place the point in the picture.")
+            }
         }
     }
 
     /// The right number of a [`Task::Number`] for the curve in `document`; `None` for other kinds or if it is undefined.
     pub fn right_number(&self, document: &Document) -> Option<f64> {
+        if let Task::Fit { method, asked } = &self.task {
+            let data = document.approximation(ObjectId(self.object))?;
+            let scheme = &data.methods().get(*method)?.scheme;
+            return fit::right_number(data, scheme, asked).ok().map(|(right, _)| right);
+        }
         let curve = document.curve(ObjectId(self.object))?;
         match &self.task {
             Task::Number { quantity, .. } => quantity.compute(curve).ok(),
