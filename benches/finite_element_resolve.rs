@@ -67,7 +67,7 @@ fn main() {
         let solve = |start| {
             let system = system.clone();
             times(move || {
-                drop(system.clone().solve(settings.basis, settings.method, start, &Unwatched).unwrap())
+                drop(system.clone().solve(settings.basis, settings.method, start, &Unwatched).unwrap());
             })
         };
         line("solve", "conjugate gradients with the diagonal, 1e-10, from zero", solve(None));

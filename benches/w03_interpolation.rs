@@ -2,6 +2,8 @@
 //!
 //! Reads `PEERS_HOME/data/i_x_N.f64` and `i_y_N.f64` (raw f64); without them, data of the same shape. One JSON line per measurement.
 
+#![allow(clippy::print_stdout, reason = "the measurements are what it is for")]
+
 use std::hint::black_box;
 use std::time::Instant;
 

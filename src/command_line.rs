@@ -10,7 +10,7 @@ use glam::DVec2;
 use crate::course::lessons;
 use crate::document::{self, Document};
 use crate::exchange::by_ending::{self, FigureFormat, figure, read_document};
-use crate::figure::composition::compose;
+use crate::figure::page::{has_free_height, page};
 use crate::figure::picture::Viewport;
 use crate::figure::theme::Theme;
 
@@ -121,14 +121,18 @@ fn say(text: &str) -> Result<(), String> {
 
 #[cfg(feature = "app")]
 fn open_window(file: Option<PathBuf>) -> Result<(), String> {
-    crate::app::run(file).map_err(|error| {
-        format!(
-            "the window cannot be opened: {error}\n\
-             A display (X11 or Wayland) and a Vulkan or OpenGL driver are needed. Without a graphics card Mesa's software\n\
-             drivers do, on Debian: apt install mesa-vulkan-drivers libgl1-mesa-dri\n\
-             These work without a window: spline-lab figure, convert, check, lessons"
-        )
-    })
+    crate::app::run(file).map_err(|error| without_window(&error.to_string()))
+}
+
+/// What to say to somebody whose machine cannot show the window.
+#[cfg(feature = "app")]
+fn without_window(error: &str) -> String {
+    format!(
+        "the window cannot be opened: {error}\n\
+         A display (X11 or Wayland) and a Vulkan or OpenGL driver are needed. Without a graphics card Mesa's software\n\
+         drivers do, on Debian: apt install mesa-vulkan-drivers, or libgl1-mesa-dri with libegl1\n\
+         These work without a window: spline-lab figure, convert, check, lessons"
+    )
 }
 
 #[cfg(not(feature = "app"))]
@@ -146,15 +150,19 @@ fn write_figure(
 ) -> Result<(), String> {
     let format = FigureFormat::of(output).map_err(|error| error.to_string())?;
     let saved = read_document(file).map_err(|error| error.to_string())?;
-    let viewport = page(&saved.document, width, height)?;
-    let picture = compose(&saved.document, &saved.view, theme, &viewport);
+    let mut viewport = paper(&saved.document, width, height)?;
+    if has_free_height(&saved.document, &saved.view) {
+        viewport.size.y = height.map_or(0.75 * viewport.size.x, |_| viewport.size.y);
+    }
+    let (picture, viewport) =
+        page(&saved.document, &saved.view, theme, &viewport).map_err(|error| error.to_string())?;
     let bytes = figure(format, &picture, &viewport, &saved.document, &saved.view, scale);
     let bytes = bytes.map_err(|error| error.to_string())?;
     by_ending::write_file(output, &bytes).map_err(|error| error.to_string())
 }
 
 /// The page of the given width that shows all visible objects; its height follows from theirs unless it is given.
-fn page(document: &Document, width: f64, height: Option<f64>) -> Result<Viewport, String> {
+fn paper(document: &Document, width: f64, height: Option<f64>) -> Result<Viewport, String> {
     for (name, length) in [("width", Some(width)), ("height", height)] {
         if let Some(length) = length
             && !(10.0..=2000.0).contains(&length)
@@ -217,6 +225,18 @@ mod tests {
 
     use super::*;
 
+    #[cfg(feature = "app")]
+    #[test]
+    fn without_a_window_one_learns_what_to_install_and_what_works() {
+        let message = without_window("no adapter");
+        for part in
+            ["no adapter", "mesa-vulkan-drivers", "libgl1-mesa-dri", "figure, convert, check, lessons"]
+        {
+            assert!(message.contains(part), "{part} is missing in: {message}");
+        }
+        assert!(message.lines().all(|line| !line.starts_with("     ")), "no stray indentation: {message}");
+    }
+
     #[test]
     fn the_arguments_are_consistent() {
         Arguments::command().debug_assert();
@@ -225,7 +245,7 @@ mod tests {
     #[test]
     fn a_page_shows_every_control_point_and_refuses_absurd_sizes() {
         let (document, _) = document::first_scene();
-        let viewport = page(&document, 160.0, None).unwrap();
+        let viewport = paper(&document, 160.0, None).unwrap();
         let (low, high) = document.bounding_box().unwrap();
         for corner in [low, high] {
             let place = viewport.page_from_world(corner);
@@ -235,7 +255,7 @@ mod tests {
             );
         }
         for width in [0.0, -3.0, f64::NAN, 1e9] {
-            assert!(page(&document, width, None).is_err(), "width {width}");
+            assert!(paper(&document, width, None).is_err(), "width {width}");
         }
     }
 }

@@ -149,7 +149,7 @@ fn numbers_of_objects_are_unique_and_below_the_next_one() {
     let object = |id: &str| {
         format!(
             "{{\"id\": {id}, \"name\": \"L\", \"visible\": true, \"curve\": {{\"degree\": 1, \
-             \"knots\": [0, 1, 2, 3], \"points\": [[0, 0], [1, 1]]}}}}}}"
+             \"knots\": [0, 1, 2, 3], \"points\": [[0, 0], [1, 1]]}}}}"
         )
     };
     let file = |ids: [&str; 2], next: &str| {

@@ -1,5 +1,7 @@
 //! Scenes and fields on paper: SVG, PDF and PNG without a window.
 
+#![allow(clippy::unwrap_used, reason = "the functions that prepare a test fail it")]
+
 use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};

@@ -17,6 +17,16 @@ pub enum Command {
     SaveAs,
     /// Writes a figure of the canvas.
     ExportFigure,
+    /// Adds the mesh of an OBJ file.
+    ImportMesh,
+    /// Writes the selected mesh at the level shown.
+    ExportMesh,
+    /// Reads data from a table.
+    ImportData,
+    /// Writes the data as a table.
+    ExportData,
+    /// A new approximation.
+    NewApproximation,
     /// Shows the first scene again.
     FirstScene,
     /// Closes the lab.
@@ -37,6 +47,14 @@ pub enum Command {
     SelectTool,
     /// The tool that draws a new curve.
     DrawTool,
+    /// The tool that selects and drags data and knots.
+    SelectDataTool,
+    /// The tool that adds data.
+    AddPointTool,
+    /// Replaces the data by values of the function.
+    SampleFunction,
+    /// Error hidden, linear, logarithmic in turn.
+    CycleErrorPlot,
     /// Inserts a knot at the parameter.
     InsertKnot,
     /// Removes the selected knot.
@@ -53,6 +71,38 @@ pub enum Command {
     Reverse,
     /// All weights 1.
     ResetWeights,
+    /// One subdivision step more.
+    LevelUp,
+    /// One subdivision step fewer.
+    LevelDown,
+    /// Control net or mesh on or off.
+    ToggleNet,
+    /// Knot lines or wireframe on or off.
+    ToggleLines,
+    /// Normals on or off.
+    ToggleNormals,
+    /// Smooth or flat faces.
+    ToggleSmooth,
+    /// Limit points on or off.
+    ToggleLimits,
+    /// Valence marks on or off.
+    ToggleValences,
+    /// The next colouring.
+    CycleColoring,
+    /// More knots in u.
+    RefineU,
+    /// More knots in v.
+    RefineV,
+    /// Raises the degree in u.
+    ElevateU,
+    /// Raises the degree in v.
+    ElevateV,
+    /// Reverses u.
+    ReverseU,
+    /// Reverses v.
+    ReverseV,
+    /// Perspective or parallel projection.
+    ToggleParallel,
     /// Colour the field, or only draw its lines.
     ToggleField,
     /// Lines of equal value.
@@ -128,6 +178,10 @@ pub enum Menu {
     Edit,
     /// The selected curve.
     Curve,
+    /// The selected surface or mesh.
+    Surface,
+    /// The selected approximation.
+    Approximation,
     /// The selected boundary value problem.
     Problem,
     /// What is shown.
@@ -140,13 +194,24 @@ pub enum Menu {
 
 impl Menu {
     /// All menus.
-    pub const ALL: [Self; 7] =
-        [Self::File, Self::Edit, Self::Curve, Self::Problem, Self::View, Self::Lesson, Self::Help];
+    pub const ALL: [Self; 9] = [
+        Self::File,
+        Self::Edit,
+        Self::Curve,
+        Self::Approximation,
+        Self::Surface,
+        Self::Problem,
+        Self::View,
+        Self::Lesson,
+        Self::Help,
+    ];
 
     /// The only room where the menu is shown; `None` if it is everywhere.
     pub fn room(self) -> Option<Room> {
         match self {
             Self::Curve => Some(Room::Curves),
+            Self::Surface => Some(Room::Surfaces),
+            Self::Approximation => Some(Room::Approximation),
             Self::Problem => Some(Room::Elements),
             _ => None,
         }
@@ -158,6 +223,8 @@ impl Menu {
             Self::File => "File",
             Self::Edit => "Edit",
             Self::Curve => "Curve",
+            Self::Surface => "Surface",
+            Self::Approximation => "Approximation",
             Self::Problem => "Problem",
             Self::View => "View",
             Self::Lesson => "Lesson",
@@ -172,12 +239,17 @@ const COMMAND_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND }
 
 impl Command {
     /// All commands, in the order of menus, palette and sheet.
-    pub const ALL: [Self; 55] = [
+    pub const ALL: [Self; 80] = [
         Self::New,
         Self::Open,
         Self::Save,
         Self::SaveAs,
         Self::ExportFigure,
+        Self::ImportMesh,
+        Self::ExportMesh,
+        Self::ImportData,
+        Self::ExportData,
+        Self::NewApproximation,
         Self::FirstScene,
         Self::Quit,
         Self::Undo,
@@ -188,6 +260,10 @@ impl Command {
         Self::Escape,
         Self::SelectTool,
         Self::DrawTool,
+        Self::SelectDataTool,
+        Self::AddPointTool,
+        Self::SampleFunction,
+        Self::CycleErrorPlot,
         Self::InsertKnot,
         Self::RemoveKnot,
         Self::RefineUniformly,
@@ -196,6 +272,22 @@ impl Command {
         Self::ToggleClosed,
         Self::Reverse,
         Self::ResetWeights,
+        Self::LevelUp,
+        Self::LevelDown,
+        Self::ToggleNet,
+        Self::ToggleLines,
+        Self::ToggleNormals,
+        Self::ToggleSmooth,
+        Self::ToggleLimits,
+        Self::ToggleValences,
+        Self::CycleColoring,
+        Self::RefineU,
+        Self::RefineV,
+        Self::ElevateU,
+        Self::ElevateV,
+        Self::ReverseU,
+        Self::ReverseV,
+        Self::ToggleParallel,
         Self::ToggleField,
         Self::ToggleIsolines,
         Self::ToggleNodes,
@@ -238,6 +330,13 @@ impl Command {
             Self::Save => ("Save", "Save the document"),
             Self::SaveAs => ("Save as…", "Save under another name"),
             Self::ExportFigure => ("Export figure…", "Write what the canvas shows as SVG, PDF or PNG"),
+            Self::ImportData => {
+                ("Import data…", "Read a table of x and y, with weights if wanted, from a CSV file")
+            }
+            Self::ExportData => ("Export data…", "Write the data as a CSV file"),
+            Self::NewApproximation => {
+                ("New approximation", "Data, a function, and methods that approximate them")
+            }
             Self::FirstScene => ("Show the first scene", "Open the scene that the lab starts with"),
             Self::Quit => ("Quit", "Close the lab"),
             Self::Undo => ("Undo", "Take back the last step"),
@@ -250,6 +349,12 @@ impl Command {
             Self::DrawTool => {
                 ("Draw a curve", "Click control points; Enter or double click ends, Backspace drops the last")
             }
+            Self::SelectDataTool => ("Select data", "Select and drag data and knots"),
+            Self::AddPointTool => ("Add points", "Click where data are to be"),
+            Self::SampleFunction => {
+                ("Sample the function", "Replace the data by as many values of the function, equally spaced")
+            }
+            Self::CycleErrorPlot => ("Error plot", "Linear, logarithmic, hidden in turn"),
             Self::InsertKnot => ("Insert knot at t", "Insert a knot at the parameter; the shape is kept"),
             Self::RemoveKnot => {
                 ("Remove knot", "Remove one copy of the selected knot; the deviation is measured")
@@ -262,6 +367,32 @@ impl Command {
             Self::ToggleClosed => ("Close or open", "Close an open curve, open a closed one"),
             Self::Reverse => ("Reverse direction", "Run through the curve the other way"),
             Self::ResetWeights => ("All weights 1", "Make the curve polynomial"),
+            Self::ImportMesh => ("Import mesh…", "Add the mesh of an OBJ file to the document"),
+            Self::ExportMesh => ("Export mesh…", "Write the selected mesh as OBJ, refined as it is shown"),
+            Self::LevelUp => ("Refine", "One step of subdivision more"),
+            Self::LevelDown => ("Coarsen", "One step of subdivision fewer"),
+            Self::ToggleNet => ("Control net", "Show or hide the control net or mesh"),
+            Self::ToggleLines => {
+                ("Lines", "Show or hide the knot lines of a surface, the wireframe of a mesh")
+            }
+            Self::ToggleNormals => ("Normals", "Show or hide normals of a surface"),
+            Self::ToggleSmooth => ("Smooth light", "Light as on the smooth surface, or flat faces"),
+            Self::ToggleLimits => ("Limit points", "Show a mesh where its vertices tend to"),
+            Self::ToggleValences => ("Valences", "Mark inner vertices that have not four faces"),
+            Self::CycleColoring => {
+                ("Curvature colours", "None, Gaussian, mean, smaller and larger principal curvature in turn")
+            }
+            Self::RefineU => {
+                ("Refine u", "A knot more in the middle of every interval of u; the surface is kept")
+            }
+            Self::RefineV => {
+                ("Refine v", "A knot more in the middle of every interval of v; the surface is kept")
+            }
+            Self::ElevateU => ("Raise degree in u", "One degree more in u; the surface is kept"),
+            Self::ElevateV => ("Raise degree in v", "One degree more in v; the surface is kept"),
+            Self::ReverseU => ("Reverse u", "Run through u the other way; normals turn to the other side"),
+            Self::ReverseV => ("Reverse v", "Run through v the other way; normals turn to the other side"),
+            Self::ToggleParallel => ("Perspective", "Perspective or parallel projection"),
             Self::ToggleField => ("Colours", "Colour the field, or only draw its lines"),
             Self::ToggleIsolines => ("Isolines", "Lines of equal value"),
             Self::ToggleNodes => ("Nodes", "The B-splines: inner ones filled, outer ones hollow"),
@@ -314,12 +445,25 @@ impl Command {
             Self::Escape => (NONE, Key::Escape),
             Self::SelectTool => (NONE, Key::V),
             Self::DrawTool => (NONE, Key::D),
+            Self::SelectDataTool => (NONE, Key::V),
+            Self::AddPointTool => (NONE, Key::A),
+            Self::CycleErrorPlot => (NONE, Key::L),
             Self::InsertKnot => (NONE, Key::K),
             Self::RemoveKnot => (Modifiers::SHIFT, Key::K),
             Self::RefineUniformly => (NONE, Key::R),
             Self::ElevateDegree => (NONE, Key::E),
             Self::ReduceDegree => (Modifiers::SHIFT, Key::E),
             Self::ToggleClosed => (NONE, Key::C),
+            Self::LevelUp => (NONE, Key::CloseBracket),
+            Self::LevelDown => (NONE, Key::OpenBracket),
+            Self::ToggleNet => (NONE, Key::P),
+            Self::ToggleLines => (NONE, Key::W),
+            Self::ToggleNormals => (NONE, Key::N),
+            Self::ToggleSmooth => (NONE, Key::S),
+            Self::ToggleLimits => (NONE, Key::L),
+            Self::ToggleValences => (NONE, Key::B),
+            Self::CycleColoring => (NONE, Key::U),
+            Self::ToggleParallel => (NONE, Key::O),
             Self::ToggleField => (NONE, Key::U),
             Self::ToggleIsolines => (NONE, Key::I),
             Self::ToggleNodes => (NONE, Key::N),
@@ -352,7 +496,21 @@ impl Command {
             Self::PreviousLesson => (NONE, Key::PageUp),
             Self::Palette => (COMMAND, Key::P),
             Self::ShortcutSheet => (NONE, Key::F1),
-            Self::FirstScene | Self::Reverse | Self::ResetWeights => return None,
+            Self::ImportMesh
+            | Self::ExportMesh
+            | Self::RefineU
+            | Self::RefineV
+            | Self::ElevateU
+            | Self::ElevateV
+            | Self::ReverseU
+            | Self::ReverseV
+            | Self::ImportData
+            | Self::ExportData
+            | Self::NewApproximation
+            | Self::SampleFunction
+            | Self::FirstScene
+            | Self::Reverse
+            | Self::ResetWeights => return None,
         };
         Some(KeyboardShortcut::new(modifiers, key))
     }
@@ -360,7 +518,8 @@ impl Command {
     /// The only room where the command means something; `None` if it does everywhere.
     pub fn room(self) -> Option<Room> {
         match self {
-            Self::TogglePolygon
+            Self::ToggleGrid
+            | Self::TogglePolygon
             | Self::ToggleComb
             | Self::ToggleConstruction
             | Self::CycleLabels
@@ -370,6 +529,7 @@ impl Command {
             | Self::StepperPlay
             | Self::StepForward
             | Self::StepBack => Some(Room::Curves),
+            Self::ExportMesh => Some(Room::Surfaces),
             _ => self.menu().room(),
         }
     }
@@ -382,6 +542,11 @@ impl Command {
             | Self::Save
             | Self::SaveAs
             | Self::ExportFigure
+            | Self::ImportMesh
+            | Self::ExportMesh
+            | Self::ImportData
+            | Self::ExportData
+            | Self::NewApproximation
             | Self::FirstScene
             | Self::Quit => Menu::File,
             Self::Undo | Self::Redo | Self::Delete | Self::Duplicate | Self::SelectAll | Self::Escape => {
@@ -397,6 +562,25 @@ impl Command {
             | Self::ToggleClosed
             | Self::Reverse
             | Self::ResetWeights => Menu::Curve,
+            Self::LevelUp
+            | Self::LevelDown
+            | Self::ToggleNet
+            | Self::ToggleLines
+            | Self::ToggleNormals
+            | Self::ToggleSmooth
+            | Self::ToggleLimits
+            | Self::ToggleValences
+            | Self::CycleColoring
+            | Self::RefineU
+            | Self::RefineV
+            | Self::ElevateU
+            | Self::ElevateV
+            | Self::ReverseU
+            | Self::ReverseV
+            | Self::ToggleParallel => Menu::Surface,
+            Self::SelectDataTool | Self::AddPointTool | Self::SampleFunction | Self::CycleErrorPlot => {
+                Menu::Approximation
+            }
             Self::ToggleField
             | Self::ToggleIsolines
             | Self::ToggleNodes

@@ -4,6 +4,7 @@ use eframe::egui::Context;
 
 use crate::app::command::Command;
 use crate::app::lab::{Lab, Tool};
+use crate::app::surfaces::commands as surfaces;
 use crate::app::workspace::Room;
 use crate::app::{KNOT_LINE, LEFT_PANEL, RIGHT_PANEL};
 use crate::document::{CurveDisplay, MembraneDisplay};
@@ -34,6 +35,9 @@ pub(crate) fn is_possible(command: Command, lab: &Lab) -> bool {
     if command.room().is_some_and(|room| room != lab.room()) {
         return false;
     }
+    if lab.room() == Room::Surfaces && (command.room().is_some() || command == Command::SelectAll) {
+        return surfaces::is_possible(command, lab);
+    }
     match command {
         Command::Undo => lab.history.undo_name().is_some(),
         Command::Redo => lab.history.redo_name().is_some(),
@@ -52,9 +56,13 @@ pub(crate) fn is_possible(command: Command, lab: &Lab) -> bool {
         | Command::CoarsenElements
         | Command::RaiseElementDegree
         | Command::LowerElementDegree => problem(lab).is_some(),
-        Command::SelectAll if lab.room() == Room::Elements => problem(lab).is_some(),
-        Command::SelectAll
-        | Command::InsertKnot
+        Command::SelectAll => {
+            lab.curve().is_some() || lab.approximation().is_some() || problem(lab).is_some()
+        }
+        Command::ExportData => lab.approximation().is_some_and(|data| !data.is_empty()),
+        Command::CycleErrorPlot => lab.approximation().is_some(),
+        Command::SampleFunction => lab.approximation().is_some_and(|data| data.function().is_some()),
+        Command::InsertKnot
         | Command::RefineUniformly
         | Command::ToggleClosed
         | Command::Reverse
@@ -93,6 +101,8 @@ pub(crate) fn is_on(command: Command, lab: &Lab) -> Option<bool> {
         Command::ToggleQuadrature => field(|display| display.quadrature),
         Command::SelectTool => lab.tool == Tool::Select,
         Command::DrawTool => lab.tool == Tool::Draw,
+        Command::SelectDataTool => lab.tool != Tool::AddPoint,
+        Command::AddPointTool => lab.tool == Tool::AddPoint,
         Command::ToggleGrid => panel(GRID),
         Command::TogglePolygon => display(|display| display.polygon),
         Command::ToggleComb => display(|display| display.comb),
@@ -106,6 +116,6 @@ pub(crate) fn is_on(command: Command, lab: &Lab) -> Option<bool> {
         Command::LookDark => lab.theme.name == "dark",
         Command::LookPresentation => lab.theme.name == "presentation",
         Command::ToggleClosed => lab.curve().is_some_and(|curve| curve.space().is_periodic()),
-        _ => return None,
+        _ => return surfaces::is_on(command, lab),
     })
 }

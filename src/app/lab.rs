@@ -11,7 +11,9 @@ use crate::app::sheet::{Sheet, Shelf};
 use crate::app::workspace::Room;
 use crate::core::spline_curve::Nurbs;
 use crate::course::{Lesson, Stepper, Verdict};
-use crate::document::{Document, Edit, EditError, History, ObjectId, Outcome, ShapeChange, View};
+use crate::document::{
+    Approximation, Document, Edit, EditError, History, ObjectId, Outcome, ShapeChange, View,
+};
 use crate::figure::theme::Theme;
 
 /// What is selected: one object, and some of its control points or one of its knots.
@@ -49,6 +51,8 @@ pub enum Tool {
     Select,
     /// Click control points of a new curve.
     Draw,
+    /// Click data of an approximation.
+    AddPoint,
 }
 
 /// Kind of a message.
@@ -227,6 +231,11 @@ impl Lab {
         self.selection.object.and_then(|id| self.history.document().curve(id))
     }
 
+    /// The approximation of the selected object.
+    pub fn approximation(&self) -> Option<&Approximation> {
+        self.selection.object.and_then(|id| self.history.document().approximation(id))
+    }
+
     /// The parameter at which `object` is looked at; the middle of its interval if none was chosen yet.
     pub fn parameter(&self, object: ObjectId) -> Option<f64> {
         let (left, right) = self.history.document().curve(object)?.space().parameter_interval();
@@ -300,7 +309,8 @@ impl Lab {
             let at_home = document.objects().iter().rfind(|object| Room::of(&object.content) == room);
             self.selection.object = at_home.map(|object| object.id);
         }
-        let count = self.curve().map_or(0, |curve| curve.points().len());
+        let object = self.selection.object.and_then(|id| document.object(id));
+        let count = object.map_or(0, |object| object.content.point_count());
         self.selection.points.retain(|&point| point < count);
         if let Some(knot) = self.selection.knot
             && self.curve().is_none_or(|curve| curve.space().multiplicity(knot) == 0)

@@ -49,6 +49,10 @@ fn starts_group(command: Command) -> bool {
             | Command::SelectAll
             | Command::InsertKnot
             | Command::ElevateDegree
+            | Command::ImportMesh
+            | Command::ToggleNet
+            | Command::RefineU
+            | Command::ToggleParallel
             | Command::ToggleClosed
             | Command::ToggleGrid
             | Command::ToggleLeftPanel

@@ -8,6 +8,7 @@ pub mod directories;
 pub mod lab;
 pub mod sheet;
 
+mod approximation;
 mod command_state;
 mod curves;
 mod dialog;
@@ -29,10 +30,13 @@ mod palette;
 mod path_dialog;
 mod plane_hands;
 mod preferences;
+#[allow(dead_code, unused_imports, reason = "the rooms of space use it")]
+mod scene_view;
 mod shortcut_sheet;
 mod smoke_log;
 mod status_bar;
 mod stepper_panel;
+mod surfaces;
 #[cfg(test)]
 mod test_bench;
 mod text_field;

@@ -11,6 +11,7 @@ use crate::app::command::Command;
 use crate::app::icon::{self, Icon};
 use crate::app::lab::Lab;
 use crate::app::painter::color32;
+use crate::app::workspace::Room;
 use crate::document::{Edit, Object, ObjectId};
 
 /// The name that is being typed.
@@ -26,8 +27,15 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
     ui.horizontal(|ui| {
         ui.heading("Objects");
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            if ui.add(Button::new("New curve").small()).on_hover_text(Command::DrawTool.text().1).clicked() {
-                lab.commands.push(Command::DrawTool);
+            let (word, command) = match lab.room() {
+                Room::Curves => ("New curve", Command::DrawTool),
+                Room::Approximation => ("New", Command::NewApproximation),
+                Room::Surfaces => ("Import mesh", Command::ImportMesh),
+                // Its tools begin with a list of problems.
+                Room::Elements => return,
+            };
+            if ui.add(Button::new(word).small()).on_hover_text(command.text().1).clicked() {
+                lab.commands.push(command);
             }
         });
     });

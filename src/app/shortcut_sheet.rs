@@ -66,9 +66,7 @@ impl ShortcutSheet {
                 ScrollArea::vertical().max_height(room.y - 110.0).show(ui, |ui| {
                     if wide {
                         ui.columns(2, |columns| {
-                            for menu in
-                                [Menu::File, Menu::Edit, Menu::Curve, Menu::Problem, Menu::Lesson, Menu::Help]
-                            {
+                            for menu in Menu::ALL.into_iter().filter(|&menu| menu != Menu::View) {
                                 keys(menu, &mut columns[0]);
                             }
                             keys(Menu::View, &mut columns[1]);

@@ -14,8 +14,8 @@ use crate::app::shortcut_sheet::ShortcutSheet;
 use crate::app::smoke_log::SmokeLog;
 use crate::app::workspace::{self, Room, Workspace};
 use crate::app::{
-    LEFT_PANEL, RIGHT_PANEL, files, lesson_panel, look, menu_bar, object_list, status_bar, stepper_panel,
-    toolbar,
+    LEFT_PANEL, RIGHT_PANEL, files, lesson_panel, look, menu_bar, object_list, scene_view, status_bar,
+    stepper_panel, toolbar,
 };
 use crate::document::first_scene;
 use crate::figure::theme::Theme;
@@ -52,7 +52,11 @@ pub fn run(file: Option<PathBuf>) -> eframe::Result {
         .with_min_inner_size([640.0, 420.0])
         .with_drag_and_drop(true);
     let options = eframe::NativeOptions { viewport, ..Default::default() };
-    eframe::run_native("spline-lab", options, Box::new(|cc| Ok(Box::new(LabApp::new(&cc.egui_ctx, file)))))
+    let start = |cc: &eframe::CreationContext<'_>| -> Box<dyn eframe::App> {
+        scene_view::offer_gpu(&cc.egui_ctx, cc.wgpu_render_state.as_ref());
+        Box::new(LabApp::new(&cc.egui_ctx, file))
+    };
+    eframe::run_native("spline-lab", options, Box::new(|cc| Ok(start(cc))))
 }
 
 impl LabApp {

@@ -12,18 +12,24 @@ pub enum Room {
     /// Plane curves.
     #[default]
     Curves,
+    /// Data, functions, and methods that approximate them.
+    Approximation,
+    /// Surfaces and subdivided meshes in space.
+    Surfaces,
     /// Membranes and flows with finite elements.
     Elements,
 }
 
 impl Room {
     /// All rooms.
-    pub const ALL: [Self; 2] = [Self::Curves, Self::Elements];
+    pub const ALL: [Self; 4] = [Self::Curves, Self::Approximation, Self::Surfaces, Self::Elements];
 
     /// The name on the tab.
     pub fn title(self) -> &'static str {
         match self {
             Self::Curves => "Curves",
+            Self::Surfaces => "Surfaces",
+            Self::Approximation => "Approximation",
             Self::Elements => "Finite elements",
         }
     }
@@ -32,6 +38,8 @@ impl Room {
     pub fn key(self) -> &'static str {
         match self {
             Self::Curves => "",
+            Self::Surfaces => crate::figure::surfaces::WORKSPACE,
+            Self::Approximation => crate::figure::approximation::ROOM,
             Self::Elements => crate::figure::elements::WORKSPACE,
         }
     }
@@ -45,6 +53,8 @@ impl Room {
     pub fn of(content: &Content) -> Self {
         match content {
             Content::Curve { .. } => Self::Curves,
+            Content::Surface(_) | Content::Mesh(_) => Self::Surfaces,
+            Content::Approximation(_) => Self::Approximation,
             Content::Membrane { .. } => Self::Elements,
         }
     }
@@ -86,7 +96,12 @@ pub(crate) trait Workspace {
 
 /// The workspaces of all rooms, in the order of [`Room::ALL`].
 pub(crate) fn all() -> Vec<Box<dyn Workspace>> {
-    vec![Box::new(crate::app::curves::Curves::default()), Box::new(crate::app::elements::Elements::default())]
+    vec![
+        Box::new(crate::app::curves::Curves::default()),
+        Box::new(crate::app::approximation::ApproximationRoom::default()),
+        Box::new(crate::app::surfaces::Surfaces::default()),
+        Box::new(crate::app::elements::Elements::default()),
+    ]
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use crate::core::spline_curve::Nurbs;
+use crate::document::approximation::Approximation;
 use crate::document::object::{Object, ObjectId};
 
 /// What is saved and undone: objects in drawing order, the first one lowest.
@@ -36,6 +37,11 @@ impl Document {
     /// The curve with the number `id`.
     pub fn curve(&self, id: ObjectId) -> Option<&Nurbs<DVec2>> {
         self.object(id).and_then(|object| object.curve())
+    }
+
+    /// The approximation with the number `id`.
+    pub fn approximation(&self, id: ObjectId) -> Option<&Approximation> {
+        self.object(id).and_then(|object| object.approximation())
     }
 
     /// Number of objects.

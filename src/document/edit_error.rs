@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use crate::core::bspline::SplineError;
+use crate::core::surface::{MeshError, SurfaceError};
 use crate::document::edit::{MAX_EDIT_DEGREE, short};
 use crate::document::object::ObjectId;
 
@@ -129,6 +130,12 @@ pub enum EditError {
     /// Points, weights or knots do not make a curve.
     #[error(transparent)]
     Spline(#[from] SplineError),
+    /// Points, weights or knots do not make a surface.
+    #[error(transparent)]
+    Surface(#[from] SurfaceError),
+    /// Vertices and faces do not make a mesh.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
 }
 
 impl EditError {
@@ -149,6 +156,8 @@ impl EditError {
             Self::BadName { .. } => "BadName",
             Self::InBatch { source, .. } => source.name(),
             Self::Spline(error) => error.name(),
+            Self::Surface(error) => error.name(),
+            Self::Mesh(error) => error.name(),
         }
     }
 }

@@ -6,6 +6,7 @@
 //! [`save`] and [`load`] keep files, [`Autosave`] what has not been saved yet.
 
 mod apply;
+mod approximation;
 mod contents;
 mod display;
 mod edit;
@@ -15,13 +16,19 @@ mod file_error;
 mod history;
 mod json;
 mod membrane;
+mod mesh;
 mod object;
 mod outcome;
 mod recovery;
 mod samples;
 mod storage;
+mod surface;
 mod view;
 
+pub use approximation::{
+    Approximation, CubicEnds, DataError, ErrorPlot, KnotChoice, MAX_DATA, MAX_DEGREE, MAX_METHODS, Method,
+    Preset, Scheme, TypedFunction,
+};
 pub use contents::Document;
 pub use display::{CurveDisplay, PointLabels};
 pub use edit::{Edit, MAX_EDIT_DEGREE};
@@ -34,9 +41,11 @@ pub use membrane::{
     FieldColors, HandleId, Membrane, MembraneDisplay, MembraneError, MembranePreset, Operation, Part, Region,
     Setting, Shape, Shown, VARIABLES, read_formula,
 };
+pub use mesh::{MeshDisplay, MeshObject};
 pub use object::{Content, Object, ObjectId};
 pub use outcome::{Outcome, ShapeChange};
 pub use recovery::{Autosave, Damaged, Recovered};
 pub use samples::first_scene;
 pub use storage::{MAX_FILE_BYTES, load, save};
-pub use view::{Camera, Saved, View};
+pub use surface::{SurfaceColoring, SurfaceDisplay, SurfaceObject};
+pub use view::{Camera, PlotWindow, Saved, View};

@@ -6,8 +6,11 @@ use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
 use crate::core::spline_curve::Nurbs;
+use crate::document::approximation::Approximation;
 use crate::document::display::CurveDisplay;
 use crate::document::membrane::{Membrane, MembraneDisplay};
+use crate::document::mesh::MeshObject;
+use crate::document::surface::SurfaceObject;
 
 /// The number of an object: stable as long as the document lives, never given twice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -43,6 +46,12 @@ pub enum Content {
         /// How it is drawn.
         display: CurveDisplay,
     },
+    /// A spline or NURBS surface.
+    Surface(SurfaceObject),
+    /// A polygon mesh that is subdivided.
+    Mesh(MeshObject),
+    /// Data, a function, and methods that approximate them.
+    Approximation(Approximation),
     /// A boundary value problem.
     Membrane {
         /// The problem.
@@ -57,6 +66,9 @@ impl Content {
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Curve { .. } => "curve",
+            Self::Surface(_) => "surface",
+            Self::Mesh(_) => "mesh",
+            Self::Approximation(_) => "approximation",
             Self::Membrane { .. } => "membrane",
         }
     }
@@ -71,6 +83,17 @@ impl Content {
                 curve.degree(),
                 curve.points().len()
             ),
+            Self::Surface(object) => {
+                let surface = object.surface();
+                let ([m, n], [rows, columns]) = (surface.space().degrees(), surface.shape());
+                let rational = if surface.is_polynomial() { "" } else { "rational " };
+                format!("{rational}surface of degree ({m}, {n}), {rows} × {columns} control points")
+            }
+            Self::Mesh(object) => {
+                let [v, e, f, _] = object.cage().counts();
+                format!("mesh with {v} vertices, {e} edges, {f} faces, level {}", object.level())
+            }
+            Self::Approximation(approximation) => approximation.summary(),
             Self::Membrane { membrane, .. } => membrane.summary(),
         }
     }
@@ -80,6 +103,22 @@ impl Content {
         match self {
             Self::Curve { display, .. } => display.color,
             Self::Membrane { display, .. } => display.color,
+            Self::Surface(object) => object.display().color,
+            Self::Mesh(object) => object.display().color,
+            Self::Approximation(approximation) => {
+                approximation.methods().first().map_or(0, |method| method.color)
+            }
+        }
+    }
+
+    /// Number of its control points or vertices.
+    pub fn point_count(&self) -> usize {
+        match self {
+            Self::Curve { curve, .. } => curve.points().len(),
+            Self::Surface(object) => object.surface().points().len(),
+            Self::Mesh(object) => object.cage().positions().len(),
+            Self::Approximation(approximation) => approximation.len(),
+            Self::Membrane { membrane, .. } => membrane.handles().len(),
         }
     }
 
@@ -92,6 +131,13 @@ impl Content {
                     2 * (space.knots().len() + space.evaluation_knots().len()) + 6 * curve.points().len();
                 numbers * size_of::<f64>()
             }
+            // Point, weight and their product.
+            Self::Surface(object) => 8 * object.surface().points().len() * size_of::<f64>(),
+            Self::Mesh(object) => {
+                let [v, e, f, _] = object.cage().counts().map(|count| usize::try_from(count).unwrap_or(0));
+                24 * (v + e) + 32 * f
+            }
+            Self::Approximation(approximation) => approximation.byte_size(),
             Self::Membrane { membrane, .. } => membrane.byte_size(),
         }
     }
@@ -102,7 +148,23 @@ impl Object {
     pub fn curve(&self) -> Option<&Nurbs<DVec2>> {
         match &self.content {
             Content::Curve { curve, .. } => Some(curve),
-            Content::Membrane { .. } => None,
+            _ => None,
+        }
+    }
+
+    /// The surface, if the object is one.
+    pub fn surface(&self) -> Option<&SurfaceObject> {
+        match &self.content {
+            Content::Surface(surface) => Some(surface),
+            _ => None,
+        }
+    }
+
+    /// The mesh, if the object is one.
+    pub fn mesh(&self) -> Option<&MeshObject> {
+        match &self.content {
+            Content::Mesh(mesh) => Some(mesh),
+            _ => None,
         }
     }
 
@@ -110,7 +172,7 @@ impl Object {
     pub fn curve_display(&self) -> Option<&CurveDisplay> {
         match &self.content {
             Content::Curve { display, .. } => Some(display),
-            Content::Membrane { .. } => None,
+            _ => None,
         }
     }
 
@@ -118,7 +180,15 @@ impl Object {
     pub fn membrane(&self) -> Option<(&Membrane, &MembraneDisplay)> {
         match &self.content {
             Content::Membrane { membrane, display } => Some((membrane, display)),
-            Content::Curve { .. } => None,
+            _ => None,
+        }
+    }
+
+    /// The approximation, if the object is one.
+    pub fn approximation(&self) -> Option<&Approximation> {
+        match &self.content {
+            Content::Approximation(approximation) => Some(approximation),
+            _ => None,
         }
     }
 

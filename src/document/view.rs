@@ -19,6 +19,8 @@ pub struct View {
     pub cameras: BTreeMap<String, Camera>,
     /// Where space is looked at from.
     pub eye: EyeState,
+    /// The ranges that the plots of each approximation show; those without an entry show everything.
+    pub plots: BTreeMap<ObjectId, PlotWindow>,
     /// The parameter t of each curve.
     pub parameters: BTreeMap<ObjectId, f64>,
     /// Name of the open workspace; empty for the first.
@@ -53,6 +55,38 @@ pub struct Camera {
 impl Default for Camera {
     fn default() -> Self {
         Self { center: DVec2::ZERO, scale: 80.0 }
+    }
+}
+
+/// The ranges of two axes with scales of their own.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct PlotWindow {
+    /// Left and right end.
+    pub x: [f64; 2],
+    /// Lower and upper end.
+    pub y: [f64; 2],
+}
+
+impl PlotWindow {
+    /// Checks the numbers.
+    ///
+    /// # Errors
+    ///
+    /// A sentence with the range that has no length.
+    pub fn check(&self) -> Result<(), String> {
+        for (name, [low, high]) in [("x", self.x), ("y", self.y)] {
+            if !(low < high && (high - low).is_finite()) {
+                return Err(format!("the range of {name} from {low} to {high} has no length"));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Default for PlotWindow {
+    fn default() -> Self {
+        Self { x: [0.0, 1.0], y: [0.0, 1.0] }
     }
 }
 

@@ -6,18 +6,26 @@ use std::io::{self, Read as _, Write as _};
 use std::os::unix::fs::PermissionsExt as _;
 use std::path::{Path, PathBuf};
 
+use glam::DVec2;
 use thiserror::Error;
 
-use crate::document::{self, Document, EXTENSION, FileError, Saved, View};
+use crate::document::{
+    self, Content, Document, EXTENSION, Edit, EditError, FileError, MeshDisplay, MeshObject, Saved, View,
+};
+use crate::exchange::obj::{self, ObjError};
 use crate::exchange::pdf::{PdfError, write_pdf};
 use crate::exchange::png::{PngError, write_png};
 use crate::exchange::svg::{SvgReadError, read_embedded_document, write_svg};
 use crate::figure::picture::{Picture, Viewport};
+use crate::figure::scene::Eye;
 
 /// Endings of figures, the usual one first.
 pub const FIGURE_ENDINGS: &[&str] = &["svg", "pdf", "png"];
 
-/// Largest SVG that is searched for a document, in bytes.
+/// Ending of polygon meshes.
+pub const MESH_ENDING: &str = "obj";
+
+/// Largest SVG or mesh that is read, in bytes.
 const SVG_LIMIT: u64 = 256 << 20;
 
 /// Why a file could not be read or written. Every message names the file.
@@ -65,6 +73,22 @@ pub enum ByEndingError {
         /// What is wrong and where.
         error: SvgReadError,
     },
+    /// The mesh cannot be read.
+    #[error("{path}: {error}")]
+    Obj {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong, with its line.
+        error: ObjError,
+    },
+    /// The mesh is too large for the lab.
+    #[error("{path}: {error}")]
+    Mesh {
+        /// The file.
+        path: PathBuf,
+        /// What there is too much of.
+        error: EditError,
+    },
     /// The figure cannot be written as PDF.
     #[error(transparent)]
     Pdf(#[from] PdfError),
@@ -105,7 +129,34 @@ pub fn is_document(path: &Path) -> bool {
     ending_of(path) == EXTENSION
 }
 
-/// Reads a document: a file of the lab, or an SVG with a document inside.
+/// Whether `path` has the ending of a polygon mesh.
+pub fn is_mesh(path: &Path) -> bool {
+    ending_of(path) == MESH_ENDING
+}
+
+/// Reads a polygon mesh with the name of its file, as the window shows it first.
+///
+/// # Errors
+///
+/// [`ByEndingError`] with the file and the line.
+pub fn read_mesh(path: &Path) -> Result<(String, MeshObject), ByEndingError> {
+    let said = |error| ByEndingError::Io { path: path.to_owned(), error };
+    let file = File::open(path).map_err(said)?;
+    let bytes = file.metadata().map_err(said)?.len();
+    if bytes > SVG_LIMIT {
+        return Err(ByEndingError::TooLarge { path: path.to_owned(), bytes });
+    }
+    let mut content = Vec::new();
+    file.take(SVG_LIMIT).read_to_end(&mut content).map_err(said)?;
+    let read = obj::read(&content).map_err(|error| ByEndingError::Obj { path: path.to_owned(), error })?;
+    let stem =
+        path.file_stem().map(|stem| stem.to_string_lossy().chars().filter(|c| !c.is_control()).collect());
+    let name = stem.filter(|stem: &String| !stem.trim().is_empty()).unwrap_or_else(|| "Mesh".to_owned());
+    let mesh = MeshObject::from_cage(read.mesh, MeshDisplay::default());
+    Ok((name, mesh.map_err(|error| ByEndingError::Mesh { path: path.to_owned(), error })?))
+}
+
+/// Reads a document: a file of the lab, an SVG with a document inside, or a mesh, which becomes a document.
 ///
 /// # Errors
 ///
@@ -122,7 +173,21 @@ pub fn read_document(path: &Path) -> Result<Saved, ByEndingError> {
             document::from_json(&json)
                 .map_err(|error| ByEndingError::Document { path: path.to_owned(), error })
         }
-        _ => Err(unknown_ending(path, &[EXTENSION, "svg"])),
+        "obj" => {
+            let (name, mesh) = read_mesh(path)?;
+            let mut document = Document::new();
+            let edit = Edit::AddObject { name, content: Content::Mesh(mesh) };
+            document.apply(&edit).map_err(|error| ByEndingError::Mesh { path: path.to_owned(), error })?;
+            let workspace = crate::figure::surfaces::WORKSPACE.to_owned();
+            let mut view = View { workspace, ..View::default() };
+            if let (Some((low, high)), Ok(eye)) =
+                (crate::figure::surfaces::bounding_box(&document), Eye::new(view.eye))
+            {
+                view.eye = *eye.fitted(low, high, DVec2::new(400.0, 300.0), 30.0).state();
+            }
+            Ok(Saved { document, view })
+        }
+        _ => Err(unknown_ending(path, &[EXTENSION, "svg", MESH_ENDING])),
     }
 }
 

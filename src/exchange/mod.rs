@@ -1,6 +1,7 @@
 //! Figures for paper, and meshes of other programs.
 
 pub mod by_ending;
+pub mod csv;
 mod mesh;
 pub mod obj;
 mod page;

@@ -1,5 +1,6 @@
 //! What is drawn, not by whom.
 
+pub mod approximation;
 pub mod chart;
 pub mod clip;
 pub mod color_bar;
@@ -14,8 +15,10 @@ pub mod font_metrics;
 pub mod formula;
 pub mod isoline;
 pub mod mesh;
+pub mod page;
 pub mod picture;
 pub mod raster;
 pub mod scene;
+pub mod surfaces;
 pub mod theme;
 pub mod ticks;

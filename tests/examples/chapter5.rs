@@ -127,7 +127,7 @@ pub(crate) const CHECKS: &[(&str, fn(&Example))] = &[
         let (space, bad, good) = (space(example), example.numbers("bad"), example.numbers("good"));
         match check_sites(&space, &bad) {
             Err(ApproximationError::SchoenbergWhitney { index, .. }) => {
-                example.expect("violating_index", index)
+                example.expect("violating_index", index);
             }
             other => panic!("5.5-f: {other:?}"),
         }
@@ -297,7 +297,7 @@ pub(crate) const CHECKS: &[(&str, fn(&Example))] = &[
         example.expect("det_normal", f64::from(u8::from(error.name() != "Singular")));
         match least_squares(space, &x, &[0.0; 5], None) {
             Err(ApproximationError::RankDeficient { index, .. }) => {
-                example.expect("uncovered_bspline", index)
+                example.expect("uncovered_bspline", index);
             }
             other => panic!("5.6-g: {other:?}"),
         }

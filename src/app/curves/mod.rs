@@ -1,6 +1,7 @@
 //! The Curves workspace: a canvas on which spline curves are drawn, dragged and looked at.
 
 mod canvas;
+mod commands;
 mod context_menu;
 mod draw_tool;
 mod gesture;

@@ -12,16 +12,19 @@ use std::sync::mpsc::{self, Receiver};
 
 use eframe::egui::{Context, Ui, ViewportCommand};
 
+use crate::app::approximation::{new_approximation, take_table};
 use crate::app::command::Command;
 use crate::app::directories::Directories;
 use crate::app::file_dialog::{self, Answer, FileDialog, Purpose, Request};
 use crate::app::lab::Lab;
 use crate::app::preferences::{self, Preferences};
 use crate::app::sheet::Sheet;
-use crate::document::{self, Document, EXTENSION, Recovered, Saved, View};
+use crate::document::{self, Content, Document, EXTENSION, Edit, Recovered, Saved, View};
 use crate::exchange::by_ending::{self, FIGURE_ENDINGS, FigureFormat};
-use crate::figure::composition::compose;
+use crate::exchange::csv::{CsvError, read_csv_file, write_csv};
+use crate::figure::page::page;
 use crate::figure::picture::Viewport;
+use crate::figure::surfaces;
 use crate::figure::theme::Theme;
 
 use keeper::Keeper;
@@ -31,6 +34,9 @@ pub(crate) use lessons::{back_to_document, open_lesson, restart_lesson};
 
 /// Pixels of an exported PNG per point: 144 to the inch, sharp on paper and on fine screens.
 const PNG_SCALE: f64 = 2.0;
+
+/// Endings of tables, the usual one first.
+const TABLES: &[&str] = &["csv", "tsv", "txt", "dat"];
 
 /// What is to be done once nothing can be lost any more.
 #[derive(Debug)]
@@ -47,6 +53,10 @@ enum Wanted {
     Open,
     Save(Option<Then>),
     Figure,
+    Mesh,
+    MeshOut,
+    Data,
+    DataCopy,
 }
 
 /// The files of the lab: dialogs, questions, preferences and the keeper of unsaved work.
@@ -154,7 +164,12 @@ impl Files {
                 None => self.ask_for_file(Wanted::Save(None), lab),
             },
             Command::SaveAs => self.ask_for_file(Wanted::Save(None), lab),
+            Command::ImportMesh => self.ask_for_file(Wanted::Mesh, lab),
+            Command::ExportMesh => self.ask_for_file(Wanted::MeshOut, lab),
             Command::ExportFigure => self.ask_for_file(Wanted::Figure, lab),
+            Command::ImportData => self.ask_for_file(Wanted::Data, lab),
+            Command::ExportData => self.ask_for_file(Wanted::DataCopy, lab),
+            Command::NewApproximation => new_approximation(lab, None),
             Command::FirstScene => {
                 let (document, view) = document::first_scene();
                 self.proceed(Then::Show(Box::new(Saved { document, view }), None), lab);
@@ -196,7 +211,8 @@ impl Files {
         let folder =
             of_document.or_else(|| self.last_folder.clone()).or_else(|| std::env::current_dir().ok());
         let folder = folder.unwrap_or_else(|| PathBuf::from("/"));
-        let documents: &'static [&'static str] = &[EXTENSION, "svg"];
+        let documents: &'static [&'static str] = &[EXTENSION, "svg", by_ending::MESH_ENDING];
+        let meshes = &documents[2..];
         let (purpose, title, kind, extensions, file_name) = match &wanted {
             Wanted::Open => (Purpose::Open, "Open a document", "documents", documents, String::new()),
             Wanted::Save(_) => (
@@ -206,9 +222,13 @@ impl Files {
                 &documents[..1],
                 format!("{name}.{EXTENSION}"),
             ),
+            Wanted::Mesh => (Purpose::Open, "Import a mesh", "meshes", meshes, String::new()),
+            Wanted::MeshOut => (Purpose::Save, "Export the mesh", "meshes", meshes, format!("{name}.obj")),
             Wanted::Figure => {
                 (Purpose::Save, "Export a figure", "figures", FIGURE_ENDINGS, format!("{name}.svg"))
             }
+            Wanted::Data => (Purpose::Open, "Import data", "tables", TABLES, String::new()),
+            Wanted::DataCopy => (Purpose::Save, "Export the data", "tables", TABLES, format!("{name}.csv")),
         };
         let request = Request { purpose, title, kind, extensions, folder, file_name };
         self.dialog = Some((FileDialog::ask(request, self.desktop), wanted));
@@ -221,8 +241,11 @@ impl Files {
         let Answer::Path(path) = answer else { return };
         self.last_folder = path.parent().map(Path::to_owned);
         match wanted {
-            Wanted::Open => self.open(&path, lab),
+            Wanted::Open | Wanted::Mesh => self.open(&path, lab),
+            Wanted::MeshOut => self.export_mesh(&path, lab),
             Wanted::Figure => self.export(path, lab),
+            Wanted::Data => self.import_data(&path, lab),
+            Wanted::DataCopy => self.export_data(&path, lab),
             Wanted::Save(then) => {
                 if self.save(&path, lab)
                     && let Some(then) = then
@@ -332,7 +355,48 @@ impl Files {
         }
     }
 
+    /// Adds the mesh of a file to the document, as one step.
+    fn import_mesh(&mut self, path: &Path, lab: &mut Lab) {
+        match by_ending::read_mesh(path) {
+            Ok((name, mesh)) => {
+                let is_first = surfaces::bounding_box(lab.history.document()).is_none();
+                let made = lab.edit(Edit::AddObject { name, content: Content::Mesh(mesh) });
+                if let Some(&id) = made.as_ref().and_then(|made| made.created.first()) {
+                    lab.select(id);
+                    if is_first {
+                        lab.commands.push(Command::Fit);
+                    }
+                }
+            }
+            Err(error) => {
+                self.problems.push(Problem::new("This mesh cannot be imported", error.to_string()));
+            }
+        }
+    }
+
+    /// Writes the selected mesh at the level that is shown.
+    fn export_mesh(&mut self, path: &Path, lab: &mut Lab) {
+        let object = lab.selection.object.and_then(|id| lab.history.document().object(id));
+        let Some(mesh) = object.and_then(|object| object.mesh()) else {
+            lab.problem("Select a mesh first.");
+            return;
+        };
+        let written = mesh.steps().map_err(|error| error.to_string()).and_then(|steps| {
+            let refined = steps.last().map_or(mesh.cage(), |step| &step.mesh);
+            let text = crate::exchange::obj::write(refined);
+            by_ending::write_file(path, text.as_bytes()).map_err(|error| error.to_string())
+        });
+        match written {
+            Ok(()) => lab.done(format!("Mesh written to {}", name_of(path))),
+            Err(error) => self.problems.push(Problem::new("The mesh was not written", error)),
+        }
+    }
+
     fn open(&mut self, path: &Path, lab: &mut Lab) {
+        if by_ending::is_mesh(path) {
+            self.import_mesh(path, lab);
+            return;
+        }
         if let Some(then) = self.read(path) {
             self.proceed(then, lab);
         }
@@ -367,7 +431,13 @@ impl Files {
         let viewport = Viewport { center: camera.center, scale: camera.scale, size: lab.canvas_size };
         let (send, receive) = mpsc::channel();
         let write = move || {
-            let picture = compose(&document, &view, &theme, &viewport);
+            let (picture, viewport) = match page(&document, &view, &theme, &viewport) {
+                Ok(page) => page,
+                Err(error) => {
+                    let _ = send.send(Err(error.to_string()));
+                    return;
+                }
+            };
             let written = by_ending::figure(format, &picture, &viewport, &document, &view, PNG_SCALE)
                 .and_then(|bytes| by_ending::write_file(&path, &bytes));
             // Nobody listens any more when the window has been closed meanwhile.
@@ -404,7 +474,35 @@ impl Files {
         if let Some(path) = dropped
             && !self.is_asking()
         {
-            self.open(&path, lab);
+            if is_table(&path) {
+                self.import_data(&path, lab);
+            } else {
+                self.open(&path, lab);
+            }
+        }
+    }
+
+    fn import_data(&mut self, path: &Path, lab: &mut Lab) {
+        match read_csv_file(path) {
+            Ok(table) => take_table(lab, table, &name_of(path)),
+            Err(error) => {
+                let text = match &error {
+                    CsvError::Io { .. } | CsvError::TooLarge { .. } => error.to_string(),
+                    _ => format!("{}: {error}", path.display()),
+                };
+                self.problems.push(Problem::new("These data cannot be imported", text));
+            }
+        }
+    }
+
+    fn export_data(&mut self, path: &Path, lab: &mut Lab) {
+        let Some(data) = lab.approximation() else { return };
+        let text = write_csv(data.sites(), data.values(), data.weights());
+        match by_ending::write_file(path, text.as_bytes()) {
+            Ok(()) => lab.done(format!("Data written to {}", name_of(path))),
+            Err(error) => {
+                self.problems.push(Problem::new("The data were not written", error.to_string()));
+            }
         }
     }
 
@@ -446,6 +544,12 @@ fn view_to_save(lab: &Lab) -> View {
         selected_points: lab.selection.points.iter().copied().collect(),
         ..lab.view.clone()
     }
+}
+
+/// Whether `path` has the ending of a table.
+fn is_table(path: &Path) -> bool {
+    let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+    ending.is_some_and(|ending| TABLES.contains(&ending.as_str()))
 }
 
 /// Name of a file for people.

@@ -41,14 +41,14 @@ pub(super) fn solve<P: Point>(
 ) {
     let (size, length) = (sites.len(), WINDOW + 2 * MARGIN);
     if size < LANES * length {
-        return sweep([0], size, sites, values, start, end, |_, row, moment| moments[row] = moment);
+        return sweep([0], size, sites, values, start, end, moments);
     }
     // The last window starts where it ends with the system.
     let windows = (size - 2 * MARGIN).div_ceil(WINDOW).next_multiple_of(LANES);
     let first = |window: usize| (window * WINDOW).min(size - length);
     for group in (0..windows).step_by(LANES) {
         let starts: [usize; LANES] = std::array::from_fn(|lane| first(group + lane));
-        sweep(starts, length, sites, values, start, end, |_, row, moment| moments[row] = moment);
+        sweep(starts, length, sites, values, start, end, moments);
     }
 }
 
@@ -61,7 +61,7 @@ fn sweep<P: Point, const L: usize>(
     values: &[P],
     start: EndRow<P>,
     end: EndRow<P>,
-    mut keep: impl FnMut(usize, usize, P),
+    moments: &mut [P],
 ) {
     let zero = EndRow::value(P::ZERO);
     let x: [&[f64]; L] = std::array::from_fn(|lane| &sites[starts[lane]..][..length]);
@@ -99,18 +99,18 @@ fn sweep<P: Point, const L: usize>(
     // Rows to keep, counted in the window; neighbouring windows overlap in what they keep where the last ones were moved.
     let low: [usize; L] = std::array::from_fn(|lane| if starts[lane] == 0 { 0 } else { MARGIN });
     let high: [usize; L] = std::array::from_fn(|lane| if at_end[lane] { length } else { length - MARGIN });
-    for i in (0..length).rev() {
-        if i + 1 < length {
-            let (ratio, value) = &eliminated[i];
-            for lane in 0..L {
-                moment[lane] = value[lane] - moment[lane] * ratio[lane];
-            }
-        }
+    // The moments take the places of the eliminated values.
+    eliminated.push((ratio, moment));
+    for (ratio, value) in eliminated[..length - 1].iter_mut().rev() {
         for lane in 0..L {
-            if (low[lane]..high[lane]).contains(&i) {
-                keep(lane, starts[lane] + i, moment[lane]);
-            }
+            moment[lane] = value[lane] - moment[lane] * ratio[lane];
         }
+        *value = moment;
+    }
+    for lane in 0..L {
+        let kept = &eliminated[low[lane]..high[lane]];
+        let places = &mut moments[starts[lane]..][low[lane]..high[lane]];
+        places.iter_mut().zip(kept).for_each(|(place, (_, moment))| *place = moment[lane]);
     }
 }
 
@@ -121,7 +121,7 @@ mod tests {
     /// Elimination in one go.
     fn plain(x: &[f64], y: &[f64], start: EndRow<f64>, end: EndRow<f64>) -> Vec<f64> {
         let mut moments = vec![0.0; x.len()];
-        sweep([0], x.len(), x, y, start, end, |_, row, moment| moments[row] = moment);
+        sweep([0], x.len(), x, y, start, end, &mut moments);
         moments
     }
 

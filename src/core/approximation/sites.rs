@@ -151,8 +151,9 @@ pub fn midpoint_sites(space: &SplineSpace) -> Result<Vec<f64>, ApproximationErro
         return Err(ApproximationError::KnotsNotUniform { index, length, expected });
     }
     // Knots and midpoints alternate: even counts are knots of D, odd ones midpoints.
-    let at =
-        |count: usize| if count % 2 == 0 { knots[n + count / 2] } else { midpoint(knots, n + count / 2) };
+    let at = |count: usize| {
+        if count.is_multiple_of(2) { knots[n + count / 2] } else { midpoint(knots, n + count / 2) }
+    };
     let regular = (n + 1) % 2;
     let (last, extra) = (2 * intervals, 2 * half);
     let is_extra = |count: usize| count < extra || last - count < extra;

@@ -96,7 +96,7 @@ pub fn smoothing_for_residual<P: Point>(
     residual: f64,
 ) -> Result<(SmoothingSpline<P>, f64), ApproximationError> {
     let system = Reinsch::new(sites, values, weights)?;
-    if !(residual >= 0.0) {
+    if residual < 0.0 || residual.is_nan() {
         return Err(ApproximationError::InvalidTolerance { value: residual });
     }
     let line = system.fit(1.0, 0.0)?;

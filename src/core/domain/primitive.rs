@@ -3,7 +3,7 @@
 //! | region | level (positive inside) |
 //! |---|---|
 //! | half plane | `normal·(x − point)`, `normal` a unit vector that points inside |
-//! | ellipse with half axes `a ≥ b` | `b/2 (1 − |S⁻¹(x − center)|²)`; of a disc `(r² − |x − center|²)/(2r)` |
+//! | ellipse with half axes `a ≥ b` | `b/2 (1 − ‖S⁻¹(x − center)‖²)`; of a disc `(r² − ‖x − center‖²)/(2r)` |
 //! | implicit | the given function |
 //!
 //! The slope of a level across the boundary is 1 for half planes and discs, between `b/a` and 1 for ellipses.

@@ -1,20 +1,5 @@
 //! Boundary value problems `−div(A grad u) + c u = f`, `u = 0` on Γ, from the domain to the errors in one call.
 //!
-//! ```
-//! # use glam::DVec2;
-//! # use spline_lab::core::domain::Domain;
-//! # use spline_lab::core::finite_element::{Coefficient, Discretisation, EllipticForm, Problem, Weight, solve_problem};
-//! # use spline_lab::core::progress::Unwatched;
-//! // −Δu = 4 on the unit disc: u = 1 − |x|².
-//! let disc = Domain::disc(DVec2::ZERO, 1.0)?;
-//! let form = EllipticForm::poisson(Coefficient::Constant(4.0));
-//! let problem = Problem { domain: &disc, weight: Weight::OfDomain(disc.clone()), form };
-//! let solution = solve_problem(&problem, &Discretisation::new(2, 0.25), None, &Unwatched)?;
-//! let middle = solution.evaluate(DVec2::ZERO).expect("inside");
-//! assert!((middle.value - 1.0).abs() < 1e-6);
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
-//!
 //! Course: sections 9.1, 9.2 and 9.4.
 
 use glam::DVec2;
@@ -295,6 +280,21 @@ impl WeightedSolution {
 }
 
 /// Discretises and solves a problem; `start` may hold the coefficients of an earlier solution on the same grid.
+///
+/// ```
+/// # use glam::DVec2;
+/// # use spline_lab::core::domain::Domain;
+/// # use spline_lab::core::finite_element::{Coefficient, Discretisation, EllipticForm, Problem, Weight, solve_problem};
+/// # use spline_lab::core::progress::Unwatched;
+/// // −Δu = 4 on the unit disc: u = 1 − |x|².
+/// let disc = Domain::disc(DVec2::ZERO, 1.0)?;
+/// let form = EllipticForm::poisson(Coefficient::Constant(4.0));
+/// let problem = Problem { domain: &disc, weight: Weight::OfDomain(disc.clone()), form };
+/// let solution = solve_problem(&problem, &Discretisation::new(2, 0.25), None, &Unwatched)?;
+/// let middle = solution.evaluate(DVec2::ZERO).expect("inside");
+/// assert!((middle.value - 1.0).abs() < 1e-6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Errors
 ///

@@ -302,7 +302,7 @@ mod tests {
         let program = parse(&deepest, &["x"]).unwrap();
         assert!(program.value(&[0.0]).is_finite(), "two levels each, just below the limit");
         assert!(program.series(&[0.0], 0, 2)[0].is_finite(), "series too");
-        let sum = parse(&"x+".repeat(100_000).trim_end_matches('+').to_owned(), &["x"]).unwrap();
+        let sum = parse("x+".repeat(100_000).trim_end_matches('+'), &["x"]).unwrap();
         assert_eq!(sum.value(&[1.0]), 100_000.0, "long is not deep");
     }
 

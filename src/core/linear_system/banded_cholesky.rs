@@ -113,7 +113,7 @@ fn decompose(half: usize, rows: &mut [f64]) -> Result<(), BandError> {
             row[p] = factor;
         }
         let pivot = row[half];
-        if !(pivot > f64::EPSILON * size) {
+        if pivot <= f64::EPSILON * size || pivot.is_nan() {
             return Err(BandError::NotPositiveDefinite { index: i, pivot });
         }
         row[half] = 1.0 / pivot;

@@ -97,7 +97,7 @@ impl<P: Point> BandLeastSquares<P> {
         let mut solution = self.right.clone();
         for k in (0..solution.len()).rev() {
             let row = &self.triangle[k * self.width..(k + 1) * self.width];
-            if !(row[0].abs() > TINY_DIAGONAL * self.size[k]) {
+            if row[0].abs() <= TINY_DIAGONAL * self.size[k] || row[0].is_nan() {
                 return Err(BandError::Singular { index: k, pivot: row[0] });
             }
             let (head, known) = solution.split_at_mut(k + 1);

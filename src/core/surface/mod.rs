@@ -2,7 +2,8 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `spline_surface`, `nurbs_surface` | 8.2 polynomial and rational surfaces, their derivatives, normals and editing |
+//! | `spline_surface`, `nurbs_surface` | 8.2 polynomial and rational surfaces, their derivatives and normals |
+//! | `surface_editing` | 8.2 other points and weights, knot insertion, degree elevation, parts |
 //! | `grid` | 8.2 points and normals on a grid |
 //! | `measure` | 8.2 area and enclosed volume |
 //! | `tessellation` | 8.2 triangles within a tolerance |
@@ -24,6 +25,7 @@ mod nurbs_surface;
 mod polygon_mesh;
 pub mod samples;
 mod spline_surface;
+mod surface_editing;
 mod tessellation;
 
 pub use curvature::{Curvatures, FundamentalForms, PointKind, SurfaceJet};

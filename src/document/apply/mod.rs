@@ -74,12 +74,13 @@ impl Document {
             }),
             Edit::SetDisplay { object, display } => {
                 display.check()?;
-                self.change(*object, |found| match &mut found.content {
-                    Content::Curve { display: shown, .. } => {
-                        *shown = display.clone();
-                        Ok(ShapeChange::None)
-                    }
-                    _ => Err(not_a_curve(found)),
+                self.change(*object, |found| {
+                    let kind = found.content.kind();
+                    let Content::Curve { display: shown, .. } = &mut found.content else {
+                        return Err(EditError::OtherKind { object: *object, kind, wanted: "curve" });
+                    };
+                    *shown = display.clone();
+                    Ok(ShapeChange::None)
                 })
             }
             Edit::MovePoints { object, points, delta } => {
@@ -177,7 +178,10 @@ impl Document {
         change: impl FnOnce(&Nurbs<DVec2>) -> Result<(Nurbs<DVec2>, ShapeChange), EditError>,
     ) -> Result<Outcome, EditError> {
         self.change(id, |object| {
-            let Content::Curve { curve, .. } = &mut object.content else { return Err(not_a_curve(object)) };
+            let kind = object.content.kind();
+            let Content::Curve { curve, .. } = &mut object.content else {
+                return Err(EditError::OtherKind { object: id, kind, wanted: "curve" });
+            };
             let (new, shape) = change(curve)?;
             check_point_count(new.points().len())?;
             *curve = new;
@@ -215,15 +219,14 @@ fn check_content(content: &Content) -> Result<(), EditError> {
             display.check()?;
             check_point_count(curve.points().len())
         }
+        // Valid by construction.
+        Content::Approximation(_) | Content::Surface(_) | Content::Mesh(_) => Ok(()),
         Content::Membrane { display, .. } => display.check(),
     }
 }
 
-fn not_a_curve(object: &Object) -> EditError {
-    EditError::OtherKind { object: object.id, kind: object.content.kind(), wanted: "curve" }
-}
-
-fn check_point_count(count: usize) -> Result<(), EditError> {
+/// Whether an object may have so many control points.
+pub(in crate::document) fn check_point_count(count: usize) -> Result<(), EditError> {
     if count > MAX_POINTS {
         return Err(EditError::TooMany { what: "control points", value: count, limit: MAX_POINTS });
     }

@@ -78,7 +78,7 @@ fn curve_of(
 }
 
 /// The entry of the curve's record that `error` is about.
-fn field_of(error: &SplineError) -> String {
+pub(super) fn field_of(error: &SplineError) -> String {
     match error {
         SplineError::DegreeZero | SplineError::StepLimit { .. } => ".degree".to_owned(),
         SplineError::KnotsDecreasing { index, .. } | SplineError::KnotMultiplicityTooHigh { index, .. } => {

@@ -11,8 +11,11 @@
 //! Numbers are written in the shortest form that reads back as the same number. Unknown keys are refused, except in `view`:
 //! data that this program does not understand would be lost with the next save.
 
+mod approximation;
 mod curve;
 mod membrane;
+mod mesh;
+mod surface;
 mod writer;
 
 use std::collections::BTreeSet;
@@ -25,8 +28,11 @@ use crate::document::apply::{MAX_ID, MAX_OBJECTS, check_name};
 use crate::document::contents::Document;
 use crate::document::eye::EyeError;
 use crate::document::file_error::FileError;
+use crate::document::json::approximation::ApproximationRecord;
 use crate::document::json::curve::CurveRecord;
 use crate::document::json::membrane::MembraneRecord;
+use crate::document::json::mesh::MeshRecord;
+use crate::document::json::surface::SurfaceRecord;
 use crate::document::json::writer::Node;
 use crate::document::object::{Content, Object, ObjectId};
 use crate::document::storage::check_size;
@@ -68,6 +74,12 @@ struct ObjectRecord {
     visible: bool,
     #[serde(default)]
     curve: Option<CurveRecord>,
+    #[serde(default)]
+    surface: Option<SurfaceRecord>,
+    #[serde(default)]
+    mesh: Option<MeshRecord>,
+    #[serde(default)]
+    approximation: Option<ApproximationRecord>,
     #[serde(default)]
     membrane: Option<MembraneRecord>,
 }
@@ -117,6 +129,9 @@ fn entry(key: &str, value: Value) -> (String, Node) {
 fn object_node(object: &Object) -> Node {
     let content = match &object.content {
         Content::Curve { curve, display } => curve::node(curve, display),
+        Content::Surface(surface) => surface::node(surface),
+        Content::Mesh(mesh) => mesh::node(mesh),
+        Content::Approximation(approximation) => approximation::node(approximation),
         Content::Membrane { membrane, display } => membrane::node(membrane, display),
     };
     Node::Record(vec![
@@ -199,11 +214,17 @@ fn object_of(record: ObjectRecord, place: &str) -> Result<Object, FileError> {
     check_name(&record.name).map_err(|error| FileError::value(format!("{place}.name"), error))?;
     let kinds = [
         record.curve.map(|curve| curve.content(&format!("{place}.curve"))),
+        record.surface.map(|surface| surface.content(&format!("{place}.surface"))),
+        record.mesh.map(|mesh| mesh.content(&format!("{place}.mesh"))),
+        record.approximation.map(|record| record.content(&format!("{place}.approximation"))),
         record.membrane.map(|membrane| membrane.content(&format!("{place}.membrane"))),
     ];
     let mut found = kinds.into_iter().flatten();
     let (Some(content), None) = (found.next(), found.next()) else {
-        return Err(FileError::value(place, "an object needs exactly one of the kinds curve, membrane"));
+        return Err(FileError::value(
+            place,
+            "an object needs exactly one of the kinds curve, approximation, surface, mesh, membrane",
+        ));
     };
     Ok(Object { id: ObjectId(record.id), name: record.name, visible: record.visible, content: content? })
 }
@@ -221,5 +242,9 @@ fn check_view(view: &View) -> Result<(), FileError> {
         }
     }
     let eye_error = |error: EyeError| FileError::value(format!("view.eye.{}", error.field), error);
-    view.eye.check().map_err(eye_error)
+    view.eye.check().map_err(eye_error)?;
+    for (id, plot) in &view.plots {
+        plot.check().map_err(|message| FileError::value(format!("view.plots.{id}"), message))?;
+    }
+    Ok(())
 }

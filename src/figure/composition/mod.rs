@@ -10,7 +10,6 @@ use glam::DVec2;
 
 use crate::core::spline_curve::Nurbs;
 use crate::document::{Content, CurveDisplay, Document, Object, View};
-use crate::figure::elements;
 use crate::figure::picture::{Picture, Viewport};
 use crate::figure::theme::Theme;
 use crate::figure::ticks::{grid_labels, grid_lines};
@@ -30,11 +29,8 @@ pub struct Composition {
     pub transparent: bool,
 }
 
-/// The picture of `document` for `viewport` as the room that `view` names shows it; in the first room that of all visible curves.
+/// The picture of all visible curves of `document` for `viewport`.
 pub fn compose(document: &Document, view: &View, theme: &Theme, viewport: &Viewport) -> Picture {
-    if elements::is_shown(document, view) {
-        return elements::compose(document, view, theme, viewport);
-    }
     compose_with(document, view, theme, viewport, &Composition::default())
 }
 

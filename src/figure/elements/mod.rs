@@ -39,9 +39,9 @@ pub fn shown_object<'a>(document: &'a Document, view: &View) -> Option<&'a Objec
 
 /// Whether the picture of `document` is that of this room.
 pub fn is_shown(document: &Document, view: &View) -> bool {
-    let curve = || document.objects().iter().any(|object| object.visible && object.curve().is_some());
+    let other = || document.objects().iter().any(|object| object.visible && object.membrane().is_none());
     view.workspace == WORKSPACE
-        || (view.workspace.is_empty() && !curve() && shown_object(document, view).is_some())
+        || (view.workspace.is_empty() && !other() && shown_object(document, view).is_some())
 }
 
 /// Solves the problem that the room shows, and composes its picture.

@@ -57,11 +57,25 @@ impl Paper {
     ///
     /// `StepLimit` if the page has no or too many pixels.
     pub fn picture(&self, scene: &Scene) -> Result<Picture, FigureError> {
+        self.picture_of(scene, true)
+    }
+
+    /// As [`Self::picture`], with the surfaces as an image however few triangles there are.
+    ///
+    /// # Errors
+    ///
+    /// `StepLimit` if the page has no or too many pixels.
+    pub fn picture_with_image(&self, scene: &Scene) -> Result<Picture, FigureError> {
+        self.picture_of(scene, false)
+    }
+
+    fn picture_of(&self, scene: &Scene, may_be_mesh: bool) -> Result<Picture, FigureError> {
         let facets = facets(scene, &self.view, &self.light);
         let raster = self.raster(&facets)?;
         let mut picture = Picture::new(scene.background);
         if !facets.is_empty() {
-            let item = match self.painted(&facets, &raster.image)? {
+            let mesh = if may_be_mesh { self.painted(&facets, &raster.image)? } else { None };
+            let item = match mesh {
                 Some(mesh) => Item::Mesh(mesh),
                 None => {
                     let (low, high) = (DVec2::ZERO, self.view.size);
@@ -198,7 +212,7 @@ struct End {
 }
 
 /// World length by which lines and marks may lie behind a surface.
-fn depth_slack(scene: &Scene) -> f64 {
+pub(crate) fn depth_slack(scene: &Scene) -> f64 {
     scene.bounding_box().map_or(0.0, |(low, high)| DEPTH_SLACK * low.distance(high))
 }
 

@@ -172,7 +172,7 @@ mod tests {
         let singular = square.with_point(3, DVec2::new(0.5, 0.5)).unwrap();
         match singular.check_regular() {
             Err(FiniteElementError::SingularJacobian { parameter, .. }) => {
-                assert_eq!(parameter, DVec2::ONE, "the corner")
+                assert_eq!(parameter, DVec2::ONE, "the corner");
             }
             other => panic!("{other:?}"),
         }

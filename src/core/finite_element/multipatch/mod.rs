@@ -437,7 +437,7 @@ mod tests {
         let folded = square.with_point(3, DVec2::new(0.1, 0.1)).unwrap();
         match MultiPatch::refined(&[square, folded], 2, 2, FixedSides::All).unwrap_err() {
             FiniteElementError::FoldedParametrisation { patch, .. } => {
-                assert_eq!(patch, 1, "the second patch")
+                assert_eq!(patch, 1, "the second patch");
             }
             other => panic!("{other}"),
         }
