@@ -112,7 +112,7 @@ fn question(lab: &mut Lab, ui: &mut Ui, state: &mut LessonState) {
         formula_view::rich_paragraph(ui, &question.prompt);
         let mut asked = None;
         match question.task {
-            Task::Number { .. } => {
+            Task::Number { .. } | Task::Elements { .. } => {
                 ui.horizontal(|ui| {
                     let width = (ui.available_width() - 72.0).clamp(60.0, 160.0);
                     let edit =

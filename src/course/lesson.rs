@@ -12,8 +12,12 @@ use crate::course::question::Question;
 use crate::document::{Document, FileError, View, from_json};
 
 /// The lesson files in the course's order, with their names.
-const FILES: [(&str, &str); 1] =
-    [("4.5-de-boor.json", include_str!("../../assets/lessons/4.5-de-boor.json"))];
+const FILES: [(&str, &str); 4] = [
+    ("4.5-de-boor.json", include_str!("../../assets/lessons/4.5-de-boor.json")),
+    ("9.1-ritz-galerkin.json", include_str!("../../assets/lessons/9.1-ritz-galerkin.json")),
+    ("9.2-weighted-b-splines.json", include_str!("../../assets/lessons/9.2-weighted-b-splines.json")),
+    ("9.3-isogeometric-elements.json", include_str!("../../assets/lessons/9.3-isogeometric-elements.json")),
+];
 
 /// A lesson, ready to be opened.
 #[derive(Clone, Debug)]

@@ -269,12 +269,53 @@ def run(program, start, folder):
         lab.end()
 
 
+def run_elements(program, start, folder):
+    """The Finite elements room: a part is dragged, undone, and looked at."""
+    document = folder / "mushroom.spline"
+    shutil.copyfile(start, document)
+    lab = Lab(program, document, folder, "elements")
+    try:
+        name = "Centre of ellipse 3 of Mushroom"
+
+        def described(holds):
+            def last(events):
+                found = [event for event in events if name in event.get("handles", {})]
+                return found[-1] if found and holds(found[-1]) else None
+
+            return last
+
+        first = lab.wait("the mushroom", described(lambda now: True))
+        check("the file opens in the Finite elements room", first["room"] == "Finite elements", f"{first['room']}")
+        lab.window = lab.wait("the window", lambda _: lab.find_window())
+        tool("xdotool", "windowmove", lab.window, 0, 0)
+        tool("xdotool", "windowfocus", "--sync", lab.window)
+        time.sleep(2)
+        place = lab.wait("the handle", described(lambda now: True))["handles"][name]
+        lab.drag(place, DRAG)
+        moved_to = lab.wait("the drag", described(lambda now: now.get("undo") == "Move part"))["handles"][name]
+        way = [new - old for old, new in zip(place, moved_to)]
+        check(
+            "the ellipse follows the mouse",
+            all(abs(a - b) < 6 for a, b in zip(way, DRAG)),
+            f"{way} pixels instead of {DRAG}",
+        )
+        check_screenshot("the picture of the Finite elements room", folder / "elements.png")
+        lab.key("ctrl+z")
+        undone = lab.wait("Ctrl+Z", described(lambda now: not now.get("undo")))["handles"][name]
+        check("Ctrl+Z brings it back", math.dist(undone, place) < 1, f"{undone} instead of {place}")
+        status = lab.quit()
+        check("the Finite elements room closes", status == 0, f"exit status {status}")
+    finally:
+        lab.end()
+
+
 def main():
     """Runs the checks and says how many passed."""
     program, start, folder = sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3])
     failure = None
     try:
         run(program, start, folder)
+        run_elements(program, start.with_name("mushroom.spline"), folder)
     except (Failed, subprocess.TimeoutExpired, KeyError, ValueError) as error:
         failure = f"{type(error).__name__}: {error}"
         print(f"smoke: FAILED  {failure}", flush=True)

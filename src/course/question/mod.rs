@@ -4,6 +4,7 @@
 //! [`Question::check`] computes the right answer from the document and gives a [`Verdict`]; a wrong answer gets a hint
 //! drawn from the fact that it violates.
 
+mod elements;
 mod number;
 mod place_point;
 mod shape_goal;
@@ -16,6 +17,7 @@ use crate::course::number_text::parse_number;
 use crate::course::stepper::{Entry, Stepper, de_boor_stepper};
 use crate::document::{Document, ObjectId};
 
+pub use elements::ElementsQuantity;
 pub use number::{Axis, Quantity};
 pub use shape_goal::Goal;
 
@@ -42,6 +44,13 @@ pub enum Task {
         /// The number that the core computes.
         quantity: Quantity,
         /// The largest difference that counts as right, in the unit of the number.
+        tolerance: f64,
+    },
+    /// Type a number of finite elements.
+    Elements {
+        /// The number that the core computes.
+        quantity: ElementsQuantity,
+        /// The largest difference that counts as right.
         tolerance: f64,
     },
     /// Place the point `pⁱₖ` of de Boor's scheme.
@@ -100,6 +109,17 @@ impl Question {
     ///
     /// An answer of the wrong kind, or a document without the curve, gets a verdict that says so.
     pub fn check(&self, document: &Document, answer: &Answer) -> Verdict {
+        if let Task::Elements { quantity, tolerance } = &self.task {
+            let object = document.object(ObjectId(self.object));
+            let Some((membrane, _)) = object.and_then(|object| object.membrane()) else {
+                return Verdict::wrong(None, "The problem of this question is gone. Open the lesson again.");
+            };
+            let Answer::Text(text) = answer else { return Verdict::wrong(None, "Type a number.") };
+            return match parse_number(text) {
+                Ok(value) => elements::check(membrane, quantity, *tolerance, value, &self.feedback),
+                Err(error) => Verdict::wrong(None, sentence(&error.to_string())),
+            };
+        }
         let Some(curve) = document.curve(ObjectId(self.object)) else {
             return Verdict::wrong(None, "The curve of this question is gone. Open the lesson again.");
         };
@@ -113,16 +133,17 @@ impl Question {
                 place_point::check(curve, wanted, *tolerance, *point, &self.feedback)
             }
             (Task::Shape { goal }, _) => shape_goal::check(document, curve, goal, &self.feedback),
-            (Task::Number { .. }, _) => Verdict::wrong(None, "Type a number."),
+            (Task::Number { .. } | Task::Elements { .. }, _) => Verdict::wrong(None, "Type a number."),
             (Task::PlacePoint { .. }, _) => Verdict::wrong(None, "Place the point in the picture."),
         }
     }
 
     /// The right number of a [`Task::Number`] for the curve in `document`; `None` for other kinds or if it is undefined.
     pub fn right_number(&self, document: &Document) -> Option<f64> {
-        let curve = document.curve(ObjectId(self.object))?;
+        let object = document.object(ObjectId(self.object))?;
         match &self.task {
-            Task::Number { quantity, .. } => quantity.compute(curve).ok(),
+            Task::Number { quantity, .. } => quantity.compute(object.curve()?).ok(),
+            Task::Elements { quantity, .. } => quantity.compute(object.membrane()?.0).ok(),
             _ => None,
         }
     }
