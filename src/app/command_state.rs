@@ -47,6 +47,12 @@ pub(crate) fn is_possible(command: Command, lab: &Lab) -> bool {
         Command::ElevateDegree => lab.curve().is_some_and(|curve| curve.degree() < HIGHEST_DEGREE),
         Command::ReduceDegree => lab.curve().is_some_and(|curve| curve.degree() > 1),
         Command::ResetWeights => lab.curve().is_some_and(|curve| !curve.is_polynomial()),
+        Command::SelectAll => {
+            lab.curve().is_some() || lab.approximation().is_some() || problem(lab).is_some()
+        }
+        Command::ExportData => lab.approximation().is_some_and(|data| !data.is_empty()),
+        Command::CycleErrorPlot => lab.approximation().is_some(),
+        Command::SampleFunction => lab.approximation().is_some_and(|data| data.function().is_some()),
         Command::ToggleField
         | Command::ToggleIsolines
         | Command::ToggleNodes
@@ -56,12 +62,6 @@ pub(crate) fn is_possible(command: Command, lab: &Lab) -> bool {
         | Command::CoarsenElements
         | Command::RaiseElementDegree
         | Command::LowerElementDegree => problem(lab).is_some(),
-        Command::SelectAll => {
-            lab.curve().is_some() || lab.approximation().is_some() || problem(lab).is_some()
-        }
-        Command::ExportData => lab.approximation().is_some_and(|data| !data.is_empty()),
-        Command::CycleErrorPlot => lab.approximation().is_some(),
-        Command::SampleFunction => lab.approximation().is_some_and(|data| data.function().is_some()),
         Command::InsertKnot
         | Command::RefineUniformly
         | Command::ToggleClosed

@@ -102,12 +102,12 @@ impl Content {
     pub fn color(&self) -> usize {
         match self {
             Self::Curve { display, .. } => display.color,
-            Self::Membrane { display, .. } => display.color,
             Self::Surface(object) => object.display().color,
             Self::Mesh(object) => object.display().color,
             Self::Approximation(approximation) => {
                 approximation.methods().first().map_or(0, |method| method.color)
             }
+            Self::Membrane { display, .. } => display.color,
         }
     }
 
@@ -118,7 +118,7 @@ impl Content {
             Self::Surface(object) => object.surface().points().len(),
             Self::Mesh(object) => object.cage().positions().len(),
             Self::Approximation(approximation) => approximation.len(),
-            Self::Membrane { membrane, .. } => membrane.handles().len(),
+            Self::Membrane { .. } => 0,
         }
     }
 
@@ -176,18 +176,18 @@ impl Object {
         }
     }
 
-    /// The boundary value problem and how it is drawn, if the object is one.
-    pub fn membrane(&self) -> Option<(&Membrane, &MembraneDisplay)> {
-        match &self.content {
-            Content::Membrane { membrane, display } => Some((membrane, display)),
-            _ => None,
-        }
-    }
-
     /// The approximation, if the object is one.
     pub fn approximation(&self) -> Option<&Approximation> {
         match &self.content {
             Content::Approximation(approximation) => Some(approximation),
+            _ => None,
+        }
+    }
+
+    /// The boundary value problem and how it is drawn, if the object is one.
+    pub fn membrane(&self) -> Option<(&Membrane, &MembraneDisplay)> {
+        match &self.content {
+            Content::Membrane { membrane, display } => Some((membrane, display)),
             _ => None,
         }
     }

@@ -184,11 +184,18 @@ pub fn read_csv(text: &str) -> Result<Table, CsvError> {
     let mut record = csv::StringRecord::new();
     // The text is valid, so that reading cannot fail.
     while records.read_record(&mut record).unwrap_or(false) {
-        let line = record.position().map_or(0, csv::Position::line);
+        let line = record.position().map_or(0, |start| line_of_record(text, start));
         let fields: Vec<&str> = record.iter().take(5).collect();
         reader.line(line, &fields)?;
     }
     reader.finish()
+}
+
+/// The line of the record that is read from `start` on: empty lines and comments before it are passed over.
+fn line_of_record(text: &str, start: &csv::Position) -> u64 {
+    let rest = usize::try_from(start.byte()).ok().and_then(|byte| text.get(byte..)).unwrap_or_default();
+    let passed = rest.lines().take_while(|line| line.is_empty() || line.starts_with('#')).count();
+    start.line() + passed as u64
 }
 
 /// Writes a table: a line of titles, then a line for each datum; commas separate, points are decimal signs, and reading gives the same numbers.

@@ -44,7 +44,7 @@ pub(super) fn show(
                 }
             }
             ui.push_id(("method", object, index), |ui| {
-                settings(approximation, index, method, lab, ui, object)
+                settings(approximation, index, method, lab, ui, object);
             });
         });
     }
@@ -228,7 +228,6 @@ fn degree_of(index: usize, degree: usize, scheme: &Scheme, knots: &KnotChoice, l
     });
 }
 
-#[expect(clippy::too_many_arguments, reason = "what a method consists of")]
 fn knots_of(
     index: usize,
     degree: usize,

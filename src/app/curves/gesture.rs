@@ -9,9 +9,20 @@ use crate::app::curves::handles::weight_for_bead;
 use crate::app::curves::hit::Target;
 use crate::app::lab::Lab;
 use crate::app::painter::{screen_from_world, world_from_screen};
-use crate::app::plane_hands::{DEAD_ZONE, constrained};
 use crate::document::Edit;
 use crate::figure::picture::Viewport;
+use crate::figure::ticks::grid_step;
+
+/// A press that moves less than this many pixels is a click and changes nothing.
+const DEAD_ZONE: f32 = 4.0;
+
+/// Pixels within which Ctrl snaps to the grid.
+const SNAP_REACH: f64 = 8.0;
+
+/// Distance of the finest lines of the grid; 1 where the zoom is beyond every grid.
+pub(super) fn fine_step(viewport: &Viewport) -> f64 {
+    grid_step(viewport).map_or(1.0, |step| step.finer().size())
+}
 
 /// A press of the left button and what it has become.
 #[derive(Debug)]
@@ -117,7 +128,23 @@ impl Gesture {
     }
 
     fn delta(&self, world: DVec2, viewport: &Viewport, keys: Modifiers) -> DVec2 {
-        constrained(world - self.from_world, self.grabbed, viewport, keys)
+        let mut delta = world - self.from_world;
+        if keys.shift {
+            // Along the axis that the pointer has followed farther.
+            if delta.x.abs() >= delta.y.abs() { delta.y = 0.0 } else { delta.x = 0.0 }
+        }
+        if keys.command || keys.ctrl {
+            let step = fine_step(viewport);
+            let reach = SNAP_REACH / viewport.scale;
+            for axis in 0..2 {
+                let wanted = self.grabbed[axis] + delta[axis];
+                let line = (wanted / step).round() * step;
+                if (line - wanted).abs() <= reach && !(keys.shift && delta[axis] == 0.0) {
+                    delta[axis] = line - self.grabbed[axis];
+                }
+            }
+        }
+        delta
     }
 
     /// The button came up.

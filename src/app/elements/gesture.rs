@@ -94,11 +94,10 @@ impl Gesture {
             return;
         }
         match self.target.handle() {
-            Some(id) if keys.shift => {
-                if self.before.contains(&id) {
-                    selected.remove(&id);
-                }
+            Some(id) if keys.shift && self.before.contains(&id) => {
+                selected.remove(&id);
             }
+            Some(_) if keys.shift => {}
             Some(id) => *selected = BTreeSet::from([id]),
             None if !keys.shift => selected.clear(),
             None => {}

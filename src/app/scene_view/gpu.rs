@@ -63,7 +63,7 @@ impl Slot {
     ) -> Option<(TextureId, Rect)> {
         let gpu = self.gpu.get_or_insert_with(|| {
             let state: RenderState = ctx.data(|data| data.get_temp(key()))?;
-            Gpu::new(state)
+            Gpu::new(state).ok()
         });
         let gpu = gpu.as_mut().filter(|_| self.refused != Some(order.version))?;
         let scale = order.pixels_per_point as f32;
@@ -148,8 +148,8 @@ impl Drop for Target {
 }
 
 impl Gpu {
-    /// `None` if this GPU cannot do it.
-    pub(super) fn new(state: RenderState) -> Option<Self> {
+    /// An error if this GPU cannot do it.
+    pub(super) fn new(state: RenderState) -> Result<Self, wgpu::Error> {
         let has_four =
             |format| state.adapter.get_texture_format_features(format).flags.sample_count_supported(4);
         let samples = if has_four(FORMAT) && has_four(DEPTH) { 4 } else { 1 };
@@ -183,7 +183,7 @@ impl Gpu {
         let (page, group, pipelines) = made?;
         let (buffers, target, drawn) = (None, None, None);
         let counts = Counts::default();
-        Some(Self { state, samples, pipelines, page, group, buffers, target, drawn, counts })
+        Ok(Self { state, samples, pipelines, page, group, buffers, target, drawn, counts })
     }
 
     /// The texture of `size` pixels with the scene; `None` if the scene is too large for this GPU.
@@ -310,13 +310,13 @@ impl Gpu {
     }
 }
 
-/// What `make` makes, if the GPU has no objection.
-fn checked<T>(device: &wgpu::Device, make: impl FnOnce() -> T) -> Option<T> {
+/// What `make` makes, or what the GPU objects to.
+fn checked<T>(device: &wgpu::Device, make: impl FnOnce() -> T) -> Result<T, wgpu::Error> {
     let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
     let validity = device.push_error_scope(wgpu::ErrorFilter::Validation);
     let made = make();
     let objections = [pollster::block_on(validity.pop()), pollster::block_on(memory.pop())];
-    objections.iter().all(Option::is_none).then_some(made)
+    objections.into_iter().flatten().next().map_or(Ok(made), Err)
 }
 
 /// `Page` of the shader.
@@ -468,6 +468,7 @@ impl Buffers {
             quads: fill("quads", &quads, index),
             runs: geometry.runs,
         })
+        .ok()
     }
 }
 
@@ -524,5 +525,6 @@ impl Target {
                 id,
             }
         })
+        .ok()
     }
 }

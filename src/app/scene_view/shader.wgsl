@@ -131,7 +131,7 @@ fn stroke(
 ) -> Stroke {
     var out: Stroke;
     out.clip = NOWHERE;
-    let near = page.lens.z * select(1.0001, 1.0, is_parallel());
+    let near = page.lens.z;
     var a = into_view(own);
     var b = into_view(other);
     let room_a = -a.z - near;
@@ -139,7 +139,7 @@ fn stroke(
     var is_cut = false;
     var run = 0.0;
     if (!is_parallel()) {
-        if (room_a <= 0.0 && room_b <= 0.0) {
+        if (room_a < 0.0 && room_b < 0.0) {
             return out;
         }
         if (room_a < 0.0) {
@@ -155,16 +155,16 @@ fn stroke(
     let width = style.x * pixels;
     let half_width = max(0.5 * width, 0.5);
     let reach = half_width + 1.0;
-    let from = on_page(a);
-    let to = on_page(b);
-    let span = distance(from, to);
-    let along = select(vec2<f32>(1.0, 0.0), (to - from) / max(span, 1e-4), span > 1e-4);
+    let start = on_page(a);
+    let stop = on_page(b);
+    let span = distance(start, stop);
+    let along = select(vec2<f32>(1.0, 0.0), (stop - start) / max(span, 1e-4), span > 1e-4);
     let left = vec2<f32>(-along.y, along.x);
     let side = sign(corner);
     var shift = left * (side * reach) - along * reach;
     let neighbour = into_view(beyond);
-    if (!is_cut && any(own != beyond) && (is_parallel() || -neighbour.z > near)) {
-        let before = from - on_page(neighbour);
+    if (!is_cut && any(own != beyond) && (is_parallel() || -neighbour.z >= near)) {
+        let before = start - on_page(neighbour);
         let distance_before = sqrt(dot(before, before));
         if (distance_before > 1e-3 && span > 1e-3) {
             let left_before = vec2<f32>(-before.y, before.x) / distance_before;
@@ -186,7 +186,7 @@ fn stroke(
     let whole = distance(own, other) * run;
     let place = style.y + select(whole, -whole, is_end);
     out.dash = vec3<f32>(place * page.strokes.y, style.z * pixels, style.w * pixels);
-    out.clip = clip_from_page(from + shift, -a.z - page.strokes.x);
+    out.clip = clip_from_page(start + shift, -a.z - page.strokes.x);
     return out;
 }
 

@@ -400,7 +400,7 @@ fn gpu() -> Option<Gpu> {
     let instance = pollster::block_on(config.wgpu_setup.new_instance());
     let state = RenderState::create(&config, &instance, None, RendererOptions::default());
     match pollster::block_on(state) {
-        Ok(state) => Some(Gpu::new(state).expect("shaders and pipelines are valid")),
+        Ok(state) => Some(Gpu::new(state).unwrap_or_else(|error| panic!("{error}"))),
         Err(error) => {
             eprintln!("skipped: no graphics adapter ({error})");
             None

@@ -74,13 +74,12 @@ impl Document {
             }),
             Edit::SetDisplay { object, display } => {
                 display.check()?;
-                self.change(*object, |found| {
-                    let kind = found.content.kind();
-                    let Content::Curve { display: shown, .. } = &mut found.content else {
-                        return Err(EditError::OtherKind { object: *object, kind, wanted: "curve" });
-                    };
-                    *shown = display.clone();
-                    Ok(ShapeChange::None)
+                self.change(*object, |found| match &mut found.content {
+                    Content::Curve { display: shown, .. } => {
+                        *shown = display.clone();
+                        Ok(ShapeChange::None)
+                    }
+                    _ => Err(not_a_curve(found)),
                 })
             }
             Edit::MovePoints { object, points, delta } => {
@@ -178,10 +177,7 @@ impl Document {
         change: impl FnOnce(&Nurbs<DVec2>) -> Result<(Nurbs<DVec2>, ShapeChange), EditError>,
     ) -> Result<Outcome, EditError> {
         self.change(id, |object| {
-            let kind = object.content.kind();
-            let Content::Curve { curve, .. } = &mut object.content else {
-                return Err(EditError::OtherKind { object: id, kind, wanted: "curve" });
-            };
+            let Content::Curve { curve, .. } = &mut object.content else { return Err(not_a_curve(object)) };
             let (new, shape) = change(curve)?;
             check_point_count(new.points().len())?;
             *curve = new;
@@ -223,6 +219,10 @@ fn check_content(content: &Content) -> Result<(), EditError> {
         Content::Approximation(_) | Content::Surface(_) | Content::Mesh(_) => Ok(()),
         Content::Membrane { display, .. } => display.check(),
     }
+}
+
+fn not_a_curve(object: &Object) -> EditError {
+    EditError::OtherKind { object: object.id, kind: object.content.kind(), wanted: "curve" }
 }
 
 /// Whether an object may have so many control points.

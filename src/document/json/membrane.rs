@@ -203,4 +203,4 @@ fn field_of(error: &MembraneError) -> &'static str {
 }
 
 /// Sides of the record must stand in the order of the core's.
-const _: () = assert!(PatchSide::ALL.len() == SIDES.len());
+const _: () = assert!(PatchSide::ALL.len() == SIDES.len(), "every side has a name");

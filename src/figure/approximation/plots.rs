@@ -78,7 +78,7 @@ fn sampled(
     value: &dyn Fn(f64) -> f64,
 ) -> Vec<Option<DVec2>> {
     let (from, to) = (left.max(area.x[0]), right.min(area.x[1]));
-    if !(from < to) {
+    if from.partial_cmp(&to) != Some(std::cmp::Ordering::Less) {
         return Vec::new();
     }
     let width = (area.high.x - area.low.x) * ((to - from) / (area.x[1] - area.x[0]));

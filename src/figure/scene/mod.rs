@@ -27,6 +27,7 @@ use crate::figure::picture::{Anchor, Color, MarkerShape, Stroke};
 pub use eye::{Eye, EyeView, Projected, Ray, StandardView, ViewAxes};
 pub use light::Light;
 pub use paper::Paper;
+#[cfg(feature = "app")]
 pub(crate) use paper::depth_slack;
 pub use picking::{PointHit, SceneHit, TriangleHit, nearest_point};
 pub use triangles::Triangles;
