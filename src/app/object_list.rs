@@ -27,14 +27,16 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
     ui.horizontal(|ui| {
         ui.heading("Objects");
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let (word, command) = match lab.room() {
-                Room::Curves => ("New curve", Command::DrawTool),
-                Room::Approximation => ("New", Command::NewApproximation),
-                Room::Surfaces => ("Import mesh", Command::ImportMesh),
-                // Its tools begin with a list of problems.
-                Room::Elements => return,
+            let start = match lab.room() {
+                Room::Curves => Some(("New curve", Command::DrawTool)),
+                Room::Approximation => Some(("New", Command::NewApproximation)),
+                Room::Surfaces => Some(("Import mesh", Command::ImportMesh)),
+                // The tools of that room offer every kind of problem.
+                Room::Elements => None,
             };
-            if ui.add(Button::new(word).small()).on_hover_text(command.text().1).clicked() {
+            if let Some((word, command)) = start
+                && ui.add(Button::new(word).small()).on_hover_text(command.text().1).clicked()
+            {
                 lab.commands.push(command);
             }
         });
