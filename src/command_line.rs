@@ -10,6 +10,7 @@ use glam::DVec2;
 use crate::course::lessons;
 use crate::document::{self, Document};
 use crate::exchange::by_ending::{self, FigureFormat, figure, read_document};
+use crate::figure::elements;
 use crate::figure::page::{has_free_height, page};
 use crate::figure::picture::Viewport;
 use crate::figure::theme::Theme;
@@ -153,6 +154,9 @@ fn write_figure(
     let mut viewport = paper(&saved.document, width, height)?;
     if has_free_height(&saved.document, &saved.view) {
         viewport.size.y = height.map_or(0.75 * viewport.size.x, |_| viewport.size.y);
+    }
+    if elements::is_shown(&saved.document, &saved.view) {
+        viewport = elements::beside_legend(&viewport);
     }
     let (picture, viewport) =
         page(&saved.document, &saved.view, theme, &viewport).map_err(|error| error.to_string())?;

@@ -112,7 +112,9 @@ fn question(lab: &mut Lab, ui: &mut Ui, state: &mut LessonState) {
         formula_view::rich_paragraph(ui, &question.prompt);
         let mut asked = None;
         match question.task {
-            Task::Number { .. } | Task::Fit { asked: FitTask::Value { .. } | FitTask::ViolatingSite, .. } => {
+            Task::Number { .. }
+            | Task::Elements { .. }
+            | Task::Fit { asked: FitTask::Value { .. } | FitTask::ViolatingSite, .. } => {
                 ui.horizontal(|ui| {
                     let width = (ui.available_width() - 72.0).clamp(60.0, 160.0);
                     let edit =

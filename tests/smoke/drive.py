@@ -203,6 +203,17 @@ def check_screenshot(name, target):
     )
 
 
+# Room, file, and what is dragged there by how many pixels.
+ROOMS = [
+    (
+        "Approximation",
+        "approximation.spline",
+        [("Datum 2 of Wave", (0, -40)), ("Knot 0 of method 2 of Wave", (30, 0))],
+    ),
+    ("Finite elements", "mushroom.spline", [("Centre of ellipse 3 of Mushroom", DRAG)]),
+]
+
+
 def run(program, start, folder):
     """All checks in order."""
     document = folder / "smoke.spline"
@@ -269,11 +280,11 @@ def run(program, start, folder):
         lab.end()
 
 
-def run_approximation(program, start, folder):
-    """A datum and a knot of the Approximation room."""
-    document = folder / "approximation.spline"
+def run_room(program, folder, room, start, drags):
+    """The room `room`, opened with the file `start`: each of `drags`, a name and a way, is dragged and undone."""
+    document = folder / start.name
     shutil.copyfile(start, document)
-    lab = Lab(program, document, folder, "approximation")
+    lab = Lab(program, document, folder, start.stem)
 
     def settled(what, holds=lambda event: True):
         """The last line once its handles have stood still for half a second and it satisfies `holds`."""
@@ -294,9 +305,9 @@ def run_approximation(program, start, folder):
         lab.window = lab.wait("the window", lambda _: lab.find_window())
         tool("xdotool", "windowmove", lab.window, 0, 0)
         tool("xdotool", "windowfocus", "--sync", lab.window)
-        first = settled("the data")
-        check("the file opens in its room", first["room"] == "Approximation", f"{first['room']}")
-        for name, step in [("Datum 2 of Wave", (0, -40)), ("Knot 0 of method 2 of Wave", (30, 0))]:
+        first = settled("the handles")
+        check(f"{start.name} opens in {room}", first["room"] == room, f"{first['room']}")
+        for name, step in drags:
             before = settled(name)
             lab.drag(before["handles"][name], step)
             after = settled(f"the drag of {name}", lambda event: event["revision"] != before["revision"])
@@ -306,9 +317,9 @@ def run_approximation(program, start, folder):
             lab.key("ctrl+z")
             undone = settled(f"undo of {name}", lambda event: event["redo"] is not None)
             check(f"Ctrl+Z brings {name} back", undone["handles"][name] == [x, y], f"{undone['handles'][name]}")
-        check_screenshot("the picture of the Approximation room", folder / "approximation.png")
+        check_screenshot(f"the picture of {room}", folder / f"{start.stem}.png")
         status = lab.quit()
-        check("the room closes", status == 0, f"exit status {status}")
+        check(f"{room} closes", status == 0, f"exit status {status}")
     finally:
         lab.end()
 
@@ -319,7 +330,8 @@ def main():
     failure = None
     try:
         run(program, start, folder)
-        run_approximation(program, start.with_name("approximation.spline"), folder)
+        for room, file, drags in ROOMS:
+            run_room(program, folder, room, start.with_name(file), drags)
     except (Failed, subprocess.TimeoutExpired, KeyError, ValueError) as error:
         failure = f"{type(error).__name__}: {error}"
         print(f"smoke: FAILED  {failure}", flush=True)

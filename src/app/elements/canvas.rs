@@ -443,7 +443,7 @@ fn show_state(room: &mut Elements, rect: Rect, lab: &Lab, ui: &mut Ui) {
 
 fn show_empty(rect: Rect, lab: &mut Lab, ui: &mut Ui) {
     let width = 250.0;
-    let area = Rect::from_center_size(rect.center(), vec2(width, 320.0f32.min(rect.height() - 16.0)));
+    let area = Rect::from_center_size(rect.center(), vec2(width, 292.0f32.min(rect.height() - 16.0)));
     ui.scope_builder(UiBuilder::new().max_rect(area), |ui| {
         ui.painter().rect_filled(area.expand(14.0), 8.0, color32(lab.theme.panel));
         ui.vertical_centered(|ui| {

@@ -103,8 +103,7 @@ fn domain(subject: &Subject, lab: &mut Lab, ui: &mut Ui) {
                 subject.apply(lab, "Remove part", changed);
             }
         });
-        ui.horizontal_wrapped(|ui| {
-            ui.spacing_mut().item_spacing.x = 3.0;
+        Grid::new(("numbers", index)).num_columns(4).spacing([6.0, 3.0]).show(ui, |ui| {
             for (slot, (name, value)) in numbers(&part.shape).into_iter().enumerate() {
                 ui.label(RichText::new(name.clone()).small().weak());
                 let label = format!("{name} of part {place}");
@@ -112,8 +111,12 @@ fn domain(subject: &Subject, lab: &mut Lab, ui: &mut Ui) {
                 number(subject, lab, ui, (&label, value, drag), |to| {
                     subject.membrane.with_parts(|parts| set_number(&mut parts[index].shape, slot, to))
                 });
+                if slot % 2 == 1 {
+                    ui.end_row();
+                }
             }
         });
+        ui.add_space(3.0);
     }
     ui.menu_button("Add a part", |ui| {
         let at = canvas::camera(lab).center;

@@ -3,8 +3,8 @@
 use serde::Deserialize;
 
 use crate::core::approximation::ApproximationError;
-use crate::course::number_text::{parse_number, short_number};
-use crate::course::question::{Answer, Verdict, sentence};
+use crate::course::number_text::short_number;
+use crate::course::question::{Answer, Verdict, sentence, typed};
 use crate::document::{Approximation, Scheme};
 use crate::figure::approximation::fit;
 
@@ -46,29 +46,34 @@ pub(super) fn check(
             goal(approximation, scheme, (limit, most_knots), feedback)
         }
         FitTask::Value { .. } | FitTask::ViolatingSite => {
-            let Answer::Text(text) = answer else { return Verdict::wrong(None, "Type a number.") };
-            let value = match parse_number(text) {
-                Ok(value) => value,
-                Err(error) => return Verdict::wrong(None, sentence(&error.to_string())),
-            };
-            let (right, tolerance) = match right_number(approximation, scheme, task) {
-                Ok(right) => right,
-                Err(reason) => return Verdict::wrong(None, reason),
-            };
-            let difference = (value - right).abs();
-            if difference <= tolerance {
-                return Verdict::right(difference, feedback);
-            }
-            let hint = match task {
-                FitTask::ViolatingSite => {
-                    "Compare every $x_k$ with both ends of the support of $b_k$, beginning with $k = 0$."
-                }
-                _ if value < right => "The number is larger.",
-                _ => "The number is smaller.",
-            };
-            Verdict::wrong(Some(difference), format!("Not {}. {hint}", short_number(value)))
+            typed(answer, |value| judge_number(approximation, scheme, task, value, feedback))
         }
     }
+}
+
+fn judge_number(
+    approximation: &Approximation,
+    scheme: &Scheme,
+    task: &FitTask,
+    value: f64,
+    feedback: &str,
+) -> Verdict {
+    let (right, tolerance) = match right_number(approximation, scheme, task) {
+        Ok(right) => right,
+        Err(reason) => return Verdict::wrong(None, reason),
+    };
+    let difference = (value - right).abs();
+    if difference <= tolerance {
+        return Verdict::right(difference, feedback);
+    }
+    let hint = match task {
+        FitTask::ViolatingSite => {
+            "Compare every $x_k$ with both ends of the support of $b_k$, beginning with $k = 0$."
+        }
+        _ if value < right => "The number is larger.",
+        _ => "The number is smaller.",
+    };
+    Verdict::wrong(Some(difference), format!("Not {}. {hint}", short_number(value)))
 }
 
 /// The right number and the difference that counts as right.

@@ -4,6 +4,7 @@
 //! [`Question::check`] computes the right answer from the document and gives a [`Verdict`]; a wrong answer gets a hint
 //! drawn from the fact that it violates.
 
+mod elements;
 mod fit;
 mod number;
 mod place_point;
@@ -17,6 +18,7 @@ use crate::course::number_text::parse_number;
 use crate::course::stepper::{Entry, Stepper, de_boor_stepper};
 use crate::document::{Document, ObjectId};
 
+pub use elements::ElementsQuantity;
 pub use fit::FitTask;
 pub use number::{Axis, Quantity};
 pub use shape_goal::Goal;
@@ -44,6 +46,13 @@ pub enum Task {
         /// The number that the core computes.
         quantity: Quantity,
         /// The largest difference that counts as right, in the unit of the number.
+        tolerance: f64,
+    },
+    /// Type a number of finite elements.
+    Elements {
+        /// The number that the core computes.
+        quantity: ElementsQuantity,
+        /// The largest difference that counts as right.
         tolerance: f64,
     },
     /// Place the point `pⁱₖ` of de Boor's scheme.
@@ -109,44 +118,65 @@ impl Question {
     ///
     /// An answer of the wrong kind, or a document without the curve, gets a verdict that says so.
     pub fn check(&self, document: &Document, answer: &Answer) -> Verdict {
-        if let Task::Fit { method, asked } = &self.task {
-            return match document.approximation(ObjectId(self.object)) {
+        match &self.task {
+            Task::Fit { method, asked } => match document.approximation(ObjectId(self.object)) {
                 Some(data) => fit::check(data, *method, asked, answer, &self.feedback),
                 None => Verdict::wrong(None, "The data of this question are gone. Open the lesson again."),
-            };
-        }
-        let Some(curve) = document.curve(ObjectId(self.object)) else {
-            return Verdict::wrong(None, "The curve of this question is gone. Open the lesson again.");
-        };
-        match (&self.task, answer) {
-            (Task::Number { quantity, tolerance }, Answer::Text(text)) => match parse_number(text) {
-                Ok(value) => number::check(curve, quantity, *tolerance, value, &self.feedback),
-                Err(error) => Verdict::wrong(None, sentence(&error.to_string())),
             },
+            Task::Elements { quantity, tolerance } => {
+                let object = document.object(ObjectId(self.object));
+                let Some((membrane, _)) = object.and_then(|object| object.membrane()) else {
+                    return Verdict::wrong(None, "The problem of this question is gone. Open the lesson again.");
+                };
+                typed(answer, |value| elements::check(membrane, quantity, *tolerance, value, &self.feedback))
+            }
+            Task::Number { .. } | Task::PlacePoint { .. } | Task::Shape { .. } => {
+                match document.curve(ObjectId(self.object)) {
+                    Some(curve) => self.check_curve(document, curve, answer),
+                    None => {
+                        Verdict::wrong(None, "The curve of this question is gone. Open the lesson again.")
+                    }
+                }
+            }
+        }
+    }
+
+    fn check_curve(&self, document: &Document, curve: &Nurbs<DVec2>, answer: &Answer) -> Verdict {
+        match (&self.task, answer) {
+            (Task::Number { quantity, tolerance }, _) => {
+                typed(answer, |value| number::check(curve, quantity, *tolerance, value, &self.feedback))
+            }
             (Task::PlacePoint { parameter, level, index, tolerance }, Answer::Point(point)) => {
                 let wanted = place_point::Wanted { parameter: *parameter, level: *level, index: *index };
                 place_point::check(curve, wanted, *tolerance, *point, &self.feedback)
             }
             (Task::Shape { goal }, _) => shape_goal::check(document, curve, goal, &self.feedback),
-            (Task::Number { .. }, _) => Verdict::wrong(None, "Type a number."),
-            (Task::PlacePoint { .. } | Task::Fit { .. }, _) => {
-                Verdict::wrong(None, "Place the point in the picture.")
-            }
+            _ => Verdict::wrong(None, "Place the point in the picture."),
         }
     }
 
-    /// The right number of a [`Task::Number`] for the curve in `document`; `None` for other kinds or if it is undefined.
+    /// The right number for the document; `None` for questions without one, or if it is undefined.
     pub fn right_number(&self, document: &Document) -> Option<f64> {
-        if let Task::Fit { method, asked } = &self.task {
-            let data = document.approximation(ObjectId(self.object))?;
-            let scheme = &data.methods().get(*method)?.scheme;
-            return fit::right_number(data, scheme, asked).ok().map(|(right, _)| right);
-        }
-        let curve = document.curve(ObjectId(self.object))?;
+        let object = document.object(ObjectId(self.object))?;
         match &self.task {
-            Task::Number { quantity, .. } => quantity.compute(curve).ok(),
-            _ => None,
+            Task::Number { quantity, .. } => quantity.compute(object.curve()?).ok(),
+            Task::Elements { quantity, .. } => quantity.compute(object.membrane()?.0).ok(),
+            Task::Fit { method, asked } => {
+                let data = object.approximation()?;
+                let scheme = &data.methods().get(*method)?.scheme;
+                fit::right_number(data, scheme, asked).ok().map(|(right, _)| right)
+            }
+            Task::PlacePoint { .. } | Task::Shape { .. } => None,
         }
+    }
+}
+
+/// The verdict of `judge` on the number that was typed.
+fn typed(answer: &Answer, judge: impl FnOnce(f64) -> Verdict) -> Verdict {
+    let Answer::Text(text) = answer else { return Verdict::wrong(None, "Type a number.") };
+    match parse_number(text) {
+        Ok(value) => judge(value),
+        Err(error) => Verdict::wrong(None, sentence(&error.to_string())),
     }
 }
 

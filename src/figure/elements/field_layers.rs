@@ -16,7 +16,7 @@ const LINE_POINTS: usize = 48;
 /// More marks than this are not drawn: they would be one stain.
 const MOST_MARKS: usize = 20_000;
 /// Length and half width of an arrow of a stream line, as parts of the line.
-const ARROW: (f64, f64) = (0.02, 0.008);
+const ARROW: (f64, f64) = (0.012, 0.004);
 
 /// Lines of equal value between the ends of the scale; without colours each in the colour of its level.
 pub(super) fn isolines(
@@ -104,14 +104,14 @@ pub(super) fn quadrature(solved: &Solved, display: &MembraneDisplay, theme: &The
     items
 }
 
-/// Stream lines, each with an arrow half way.
+/// Stream lines, each with an arrow, of neighbours in turn at one third and at two thirds.
 pub(super) fn stream_lines(solved: &Solved, display: &MembraneDisplay, theme: &Theme) -> Vec<Item> {
     let ink = if display.fill { theme.background } else { theme.basis_color(0) };
     let stroke = theme.stroke(ink.with_opacity(0.9), 1.2);
     let mut items = Vec::new();
-    for line in solved.stream_lines(display.stream_lines) {
+    for (index, line) in solved.stream_lines(display.stream_lines).into_iter().enumerate() {
         let length: f64 = line.windows(2).map(|edge| edge[0].distance(edge[1])).sum();
-        let mut left = 0.5 * length;
+        let mut left = [1.0 / 3.0, 2.0 / 3.0][index % 2] * length;
         for edge in line.windows(2) {
             let way = edge[0].distance(edge[1]);
             if left <= way {

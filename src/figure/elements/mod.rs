@@ -39,9 +39,18 @@ pub fn shown_object<'a>(document: &'a Document, view: &View) -> Option<&'a Objec
 
 /// Whether the picture of `document` is that of this room.
 pub fn is_shown(document: &Document, view: &View) -> bool {
-    let curve = || document.objects().iter().any(|object| object.visible && object.curve().is_some());
+    let other = || document.objects().iter().any(|object| object.visible && object.membrane().is_none());
     view.workspace == WORKSPACE
-        || (view.workspace.is_empty() && !curve() && shown_object(document, view).is_some())
+        || (view.workspace.is_empty() && !other() && shown_object(document, view).is_some())
+}
+
+/// Width of the legend in pt, nearly.
+const LEGEND: f64 = 64.0;
+
+/// The viewport drawn together to the left, so that the legend covers nothing that it shows.
+pub fn beside_legend(viewport: &Viewport) -> Viewport {
+    let scale = viewport.scale * (1.0 - LEGEND / viewport.size.x).max(0.25);
+    Viewport { scale, center: viewport.center + DVec2::new(0.5 * LEGEND / scale, 0.0), ..*viewport }
 }
 
 /// Solves the problem that the room shows, and composes its picture.

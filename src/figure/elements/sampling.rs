@@ -10,9 +10,9 @@ use crate::core::finite_element::{
 };
 
 /// Lattice lines over the longer side of a domain, about.
-const LINES: usize = 96;
+const LINES: usize = 64;
 /// A cut cell is divided so many times finer.
-const FINER: usize = 3;
+const FINER: usize = 2;
 /// Halvings of an edge until its crossing with the boundary is found.
 const HALVINGS: usize = 30;
 

@@ -16,6 +16,9 @@ use crate::figure::elements::sampling::{Samples, of_patch, of_weighted};
 /// The most B-splines of a problem of the window.
 pub const MAX_FUNCTIONS: usize = 90_000;
 
+/// Tolerance of stream lines: small, so that their points are close enough for a polyline to look smooth.
+const STREAM_TOLERANCE: f64 = 1e-9;
+
 /// Why a problem has no solution to show.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum SolveError {
@@ -140,7 +143,7 @@ impl Solved {
         let [low, high] = patch.parameter_rectangle();
         let line = |k: usize| {
             let t = DVec2::new(low.x, low.y + (high.y - low.y) * (k as f64 + 0.5) / count as f64);
-            let line = flow.stream_line(patch.evaluate(t).ok()?, 1e-4).ok()?;
+            let line = flow.stream_line(patch.evaluate(t).ok()?, STREAM_TOLERANCE).ok()?;
             Some(line.points.iter().map(|point| point.point).collect())
         };
         (0..count).filter_map(line).collect()
