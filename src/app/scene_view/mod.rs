@@ -8,15 +8,22 @@
 //! | `gizmo.rs` | the little axes in the corner, and the tools that turn the eye |
 //! | `geometry.rs` | a scene as vertices for the GPU |
 //! | `shader.wgsl` | triangles, strokes and marks on the GPU; the light is that of [`crate::figure::scene::Light`] |
-//! | `gpu.rs` | pipelines, buffers and the texture that egui shows |
+//! | `gpu.rs` | draws a scene, if anything about it is new |
+//! | `pipelines.rs`, `buffers.rs`, `target.rs` | the programs of the GPU, the scene in its memory, the texture that egui shows |
+//! | `pace.rs`, `coarse.rs` | quick pictures of large scenes that move, where a processor plays GPU |
 //! | `stand_in.rs` | the same by the processor, beside the window's thread |
 
+mod buffers;
+mod coarse;
 mod geometry;
 mod gizmo;
 mod gpu;
 mod grip;
 mod hands;
+mod pace;
+mod pipelines;
 mod stand_in;
+mod target;
 #[cfg(test)]
 mod tests;
 
