@@ -161,7 +161,7 @@ impl LabApp {
         let scale = lab.theme.text_scale as f32;
         let open = |lab: &Lab, name: &str| lab.view.panels.get(name).copied().unwrap_or(true);
         if open(lab, LEFT_PANEL) {
-            let size = files.panel_size(LEFT_PANEL, 184.0);
+            let size = files.panel_size(LEFT_PANEL, 214.0);
             let panel = Panel::left(LEFT_PANEL)
                 .default_size(size)
                 .size_range(170.0 * scale..=360.0 * scale)

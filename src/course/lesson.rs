@@ -167,6 +167,7 @@ pub fn text_parts(text: &str) -> Result<Vec<TextPart>, LessonError> {
 mod tests {
     use super::*;
     use crate::course::question::Answer;
+    use crate::figure::formula::layout;
 
     #[test]
     fn every_lesson_file_loads() {
@@ -213,6 +214,14 @@ mod tests {
             let words: usize = lesson.paragraphs.iter().map(|text| text.split_whitespace().count()).sum();
             assert!((80..=260).contains(&words), "{}: {words} words", lesson.section);
             assert_eq!(lesson.things_to_try.len(), 3, "{}", lesson.section);
+        }
+    }
+
+    #[test]
+    fn display_formulas_fit_beside_the_picture() {
+        for lesson in lessons().iter().filter(|lesson| !lesson.display_formula.is_empty()) {
+            let width = layout(&lesson.display_formula, 14.0).unwrap().width;
+            assert!(width < 270.0, "{}: {width} pt", lesson.section);
         }
     }
 

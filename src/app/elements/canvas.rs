@@ -108,8 +108,8 @@ impl Canvas {
             page.cmpge(DVec2::ZERO).all() && page.cmple(lab.canvas_size).all()
         };
         let suits = subject.membrane.bounding_box().is_some_and(|(low, high)| {
-            let part = (high - low).max_element() * scale / lab.canvas_size.max_element();
-            sees(low) && sees(high) && part > 0.15
+            let part = (high - low).max_element() * scale / lab.canvas_size.min_element();
+            sees(low) && sees(high) && part > 0.5
         });
         if !suits {
             self.fit(lab);
