@@ -95,7 +95,10 @@ impl Canvas {
 
     /// A camera that has never looked at the selected problem is fitted.
     fn check_camera(&mut self, subject: Option<&Subject>, lab: &mut Lab) {
-        let Some(subject) = subject else { return };
+        let Some(subject) = subject else {
+            self.checked = None;
+            return;
+        };
         let now = Some((lab.shelf.opened, subject.object));
         let scale = lab.view.cameras.get(CAMERA).map_or(0.0, |camera| camera.scale);
         if self.checked == now && scale.is_finite() && scale > 0.0 {
