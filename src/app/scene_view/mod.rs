@@ -84,7 +84,6 @@ impl SceneView {
         }
         let ground = scene.background.unwrap_or(theme.background);
         let painter = ui.painter_at(rect);
-        painter.rect_filled(rect, 0.0, color32(ground));
         let order = gpu::Order {
             scene,
             version,
@@ -99,6 +98,7 @@ impl SceneView {
             painter.image(texture, pixels, whole, Color32::WHITE);
             paint_picture(&labels(scene, view), &upright(view.size), rect, &painter);
         } else {
+            painter.rect_filled(rect, 0.0, color32(ground));
             self.stand_in.paint(&order, rect, ui);
         }
     }
