@@ -365,6 +365,38 @@ fn deleting_points_of_a_net_is_refused_with_the_reason() {
 }
 
 #[test]
+fn a_deleted_vertex_leaves_a_polygon_and_undo_brings_it_back() {
+    let mut window = window(cube());
+    let before = document(&window);
+    let at = place(&window, "Vertex 5 of T");
+    click(&mut window, at);
+    key(&mut window, Modifiers::NONE, Key::Delete);
+    assert_eq!(mesh(&window).cage().counts(), [7, 9, 4, 2], "three squares became a hexagon");
+    assert!(lab(&window).selection.points.is_empty(), "nothing is selected any more");
+    undo(&mut window);
+    assert_eq!(document(&window), before, "undone exactly");
+}
+
+#[test]
+fn what_would_leave_no_mesh_is_not_deleted() {
+    let mut window = window(cube());
+    let before = document(&window);
+    key(&mut window, Modifiers::COMMAND, Key::A);
+    key(&mut window, Modifiers::NONE, Key::Delete);
+    assert_eq!(document(&window), before, "all vertices at once");
+}
+
+#[test]
+fn the_menu_of_a_face_deletes_it() {
+    let mut window = window(cube());
+    let at = middle(&window) + vec2(11.0, 7.0);
+    drag_with(&mut window, PointerButton::Secondary, at, Vec2::ZERO);
+    window.get_by_label("Delete face").click();
+    window.run_steps(3);
+    assert_eq!(mesh(&window).cage().counts(), [8, 12, 5, 1], "an open box");
+}
+
+#[test]
 fn inserting_a_knot_keeps_the_surface() {
     let mut window = window(torus());
     let surface =
