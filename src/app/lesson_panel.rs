@@ -114,6 +114,8 @@ fn question(lab: &mut Lab, ui: &mut Ui, state: &mut LessonState) {
         match question.task {
             Task::Number { .. }
             | Task::Elements { .. }
+            | Task::Surface { .. }
+            | Task::Mesh { .. }
             | Task::Fit { asked: FitTask::Value { .. } | FitTask::ViolatingSite, .. } => {
                 ui.horizontal(|ui| {
                     let width = (ui.available_width() - 72.0).clamp(60.0, 160.0);

@@ -30,6 +30,7 @@ mod painter;
 mod palette;
 mod path_dialog;
 mod preferences;
+mod progress_strip;
 mod scene_view;
 mod shortcut_sheet;
 mod smoke_log;

@@ -43,7 +43,13 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
     });
     let objects: Vec<Arc<Object>> = lab.history.document().objects().to_vec();
     if objects.is_empty() {
-        ui.label(RichText::new("Nothing here yet. Draw a curve or open a lesson.").weak());
+        let begin = match lab.room() {
+            Room::Curves => "Draw a curve",
+            Room::Approximation => "Make data",
+            Room::Surfaces => "Add a surface or a mesh",
+            Room::Elements => "Choose a problem",
+        };
+        ui.label(RichText::new(format!("Nothing here yet. {begin} or open a lesson.")).weak());
         return;
     }
     let id = ui.make_persistent_id("renaming");

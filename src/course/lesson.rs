@@ -12,11 +12,13 @@ use crate::course::question::Question;
 use crate::document::{Document, FileError, View, from_json};
 
 /// The lesson files in the course's order, with their names.
-const FILES: [(&str, &str); 7] = [
+const FILES: [(&str, &str); 9] = [
     ("4.5-de-boor.json", include_str!("../../assets/lessons/4.5-de-boor.json")),
     ("5.1-schoenberg.json", include_str!("../../assets/lessons/5.1-schoenberg.json")),
     ("5.5-interpolation.json", include_str!("../../assets/lessons/5.5-interpolation.json")),
     ("5.6-smoothing.json", include_str!("../../assets/lessons/5.6-smoothing.json")),
+    ("8.2-spline-surfaces.json", include_str!("../../assets/lessons/8.2-spline-surfaces.json")),
+    ("8.3-subdivision-surfaces.json", include_str!("../../assets/lessons/8.3-subdivision-surfaces.json")),
     ("9.1-ritz-galerkin.json", include_str!("../../assets/lessons/9.1-ritz-galerkin.json")),
     ("9.2-weighted-b-splines.json", include_str!("../../assets/lessons/9.2-weighted-b-splines.json")),
     ("9.3-isogeometric-elements.json", include_str!("../../assets/lessons/9.3-isogeometric-elements.json")),

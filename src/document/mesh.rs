@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
+use crate::core::progress::Watcher;
 use crate::core::surface::catmull_clark::{BoundaryRule, SubdivisionStep};
 use crate::core::surface::{MeshError, PolygonMesh};
 use crate::document::apply::check_point_count;
@@ -152,6 +153,15 @@ impl MeshObject {
         self.cage.subdivide_levels(self.level, self.rule)
     }
 
+    /// As [`Self::steps`] with a watcher.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::steps`]; `Stopped`.
+    pub fn steps_watched(&self, watcher: &dyn Watcher) -> Result<Vec<SubdivisionStep>, MeshError> {
+        self.cage.subdivide_levels_watched(self.level, self.rule, watcher)
+    }
+
     /// Whether boundary vertices with a single face stay where they are.
     pub fn fixes_corners(&self) -> bool {
         self.rule == BoundaryRule::Standard { fix_corners: true }
@@ -208,6 +218,24 @@ impl MeshObject {
         self.with_cage(cage)
     }
 
+    /// The control mesh without some vertices: the faces around an inner one become one polygon, those at a boundary vertex go.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`PolygonMesh::without_vertices`]; as [`Self::new`].
+    pub fn without_vertices(&self, vertices: &BTreeSet<usize>) -> Result<Self, EditError> {
+        self.with_cage(self.cage.without_vertices(&vertices.iter().copied().collect::<Vec<_>>())?)
+    }
+
+    /// The control mesh without one of its faces.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`PolygonMesh::without_faces`]; as [`Self::new`].
+    pub fn without_face(&self, face: usize) -> Result<Self, EditError> {
+        self.with_cage(self.cage.without_faces(&[face])?)
+    }
+
     /// An edge of the control mesh made as sharp as `sharpness`; 0 makes it smooth.
     ///
     /// # Errors
@@ -223,10 +251,7 @@ fn face_count(mesh: &PolygonMesh, level: usize) -> usize {
     let topology = mesh.topology();
     match level.checked_sub(1) {
         None => topology.face_count(),
-        Some(more) => {
-            let corners: usize = topology.faces().map(<[u32]>::len).sum();
-            corners.saturating_mul(4_usize.saturating_pow(more.min(30) as u32))
-        }
+        Some(more) => topology.corner_count().saturating_mul(4_usize.saturating_pow(more.min(30) as u32)),
     }
 }
 

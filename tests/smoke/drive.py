@@ -210,6 +210,11 @@ ROOMS = [
         "approximation.spline",
         [("Datum 2 of Wave", (0, -40)), ("Knot 0 of method 2 of Wave", (30, 0))],
     ),
+    (
+        "Surfaces",
+        "surface.spline",
+        [("Control point 6 of Torus", DRAG), ("Vertex 6 of Cube", (30, -20))],
+    ),
     ("Finite elements", "mushroom.spline", [("Centre of ellipse 3 of Mushroom", DRAG)]),
 ]
 

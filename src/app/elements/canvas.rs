@@ -4,8 +4,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use eframe::egui::{
-    self, Align2, CursorIcon, Painter, Pos2, ProgressBar, Rect, RichText, Sense, Stroke, StrokeKind, Ui,
-    UiBuilder, vec2,
+    self, Align2, CursorIcon, Painter, Pos2, Rect, RichText, Sense, Stroke, StrokeKind, Ui, UiBuilder, vec2,
 };
 use glam::DVec2;
 
@@ -15,6 +14,7 @@ use crate::app::elements::{CAMERA, Elements, Subject, add, context_menu};
 use crate::app::hands;
 use crate::app::lab::Lab;
 use crate::app::painter::{color32, paint_note, paint_picture, screen_from_world, world_from_screen};
+use crate::app::progress_strip::{self, State};
 use crate::document::{Camera, HandleId, MembraneDisplay, ObjectId, Shape};
 use crate::figure::composition::short_number;
 use crate::figure::elements::{Solved, boundary, field, ground, legend, net};
@@ -24,8 +24,6 @@ use crate::figure::picture::{Picture, Viewport};
 const FIT_MARGIN: f64 = 70.0;
 /// Handles above this number are not announced one by one.
 const ANNOUNCED: usize = 200;
-/// Seconds after which the progress of a solve is shown.
-const SHOWN_AFTER: f32 = 0.4;
 
 /// The canvas of the room.
 #[derive(Debug, Default)]
@@ -404,33 +402,15 @@ fn announce(subject: &Subject, (viewport, rect): (&Viewport, Rect), ui: &Ui) {
 
 /// Progress with Cancel, or why there is no solution, at the lower edge.
 fn show_state(room: &mut Elements, rect: Rect, lab: &Lab, ui: &mut Ui) {
-    let strip =
-        Rect::from_min_size(rect.left_bottom() + vec2(44.0, -64.0), vec2(330.0, 26.0)).intersect(rect);
-    let mut state = ui.new_child(UiBuilder::new().max_rect(strip));
-    match room.live.progress() {
-        Some((part, seconds)) => {
-            if seconds < SHOWN_AFTER {
-                ui.ctx().request_repaint_after(std::time::Duration::from_millis(100));
-                return;
+    let state = match room.live.progress() {
+        Some((part, seconds)) => Some(State::Running(part, seconds)),
+        None => room.live.is_cancelled().then_some(State::Stopped),
+    };
+    match state {
+        Some(state) => {
+            if progress_strip::show(state, "Solving", "Solve", rect, &lab.theme, ui) {
+                if matches!(state, State::Stopped) { room.live.again() } else { room.live.cancel() }
             }
-            ui.ctx().request_repaint_after(std::time::Duration::from_millis(60));
-            state.horizontal(|ui| {
-                ui.add(ProgressBar::new(part).desired_width(220.0).text("Solving"));
-                if ui.button("Cancel").clicked() {
-                    room.live.cancel();
-                }
-            });
-        }
-        None if room.live.is_cancelled() => {
-            state.horizontal(|ui| {
-                ui.label(
-                    RichText::new("Stopped; the picture is that of before.")
-                        .color(color32(lab.theme.warning)),
-                );
-                if ui.button("Solve").clicked() {
-                    room.live.again();
-                }
-            });
         }
         None => {
             if let Some(error) = room.live.error() {

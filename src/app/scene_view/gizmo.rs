@@ -80,25 +80,30 @@ pub(crate) fn axis_gizmo(eye: &mut Eye, rect: Rect, theme: &Theme, ui: &mut Ui) 
     })
 }
 
-/// Buttons that turn the eye to the usual views and change the projection, for a row of tools; says whether the eye changed.
+/// A menu that turns the eye to the usual views and changes the projection, for a row of tools; says whether the eye changed.
 pub(crate) fn eye_tools(eye: &mut Eye, ui: &mut Ui) -> bool {
     let before = *eye;
-    for view in StandardView::ALL {
-        let (word, hint) = match view {
-            StandardView::Front => ("Front", "Look along y: x to the right, z up"),
-            StandardView::Top => ("Top", "Look down: x to the right, y up"),
-            StandardView::Right => ("Right", "Look from x: y to the right, z up"),
-            StandardView::Isometric => ("Isometric", "Look from the corner: all axes equally long"),
-        };
-        let is_there = eye.turned_to(view) == *eye;
-        if ui.add(egui::Button::selectable(is_there, word)).on_hover_text(hint).clicked() {
-            *eye = eye.turned_to(view);
+    let menu = ui.menu_button("View", |ui| {
+        ui.set_min_width(150.0);
+        for view in StandardView::ALL {
+            let (word, hint) = match view {
+                StandardView::Front => ("Front", "Look along y: x to the right, z up"),
+                StandardView::Top => ("Top", "Look down: x to the right, y up"),
+                StandardView::Right => ("Right", "Look from x: y to the right, z up"),
+                StandardView::Isometric => ("Isometric", "Look from the corner: all axes equally long"),
+            };
+            let is_there = eye.turned_to(view) == *eye;
+            if ui.add(egui::Button::selectable(is_there, word)).on_hover_text(hint).clicked() {
+                *eye = eye.turned_to(view);
+                ui.close();
+            }
         }
-    }
-    let parallel = eye.state().orthographic;
-    let (word, hint) = ("Perspective", "Perspective or parallel projection");
-    if ui.add(egui::Button::selectable(!parallel, word)).on_hover_text(hint).clicked() {
-        *eye = eye.with_orthographic(!parallel);
-    }
+        ui.separator();
+        let mut perspective = !eye.state().orthographic;
+        if ui.checkbox(&mut perspective, "Perspective").on_hover_text("Else parallel projection").changed() {
+            *eye = eye.with_orthographic(!perspective);
+        }
+    });
+    menu.response.on_hover_text("Turn the eye to the front, the top, the right or the corner");
     *eye != before
 }

@@ -1,22 +1,21 @@
 //! The canvas: the view of space, handles, and the hands on them.
 
-use eframe::egui::{self, Align2, CursorIcon, Pos2, Rect, Sense, Stroke, StrokeKind, Ui, vec2};
+use eframe::egui::{self, CursorIcon, Pos2, Rect, Sense, Ui, vec2};
 use glam::{DVec2, DVec3};
 
 use crate::app::command::Command;
 use crate::app::hands;
 use crate::app::lab::Lab;
-use crate::app::painter::{color32, paint_note, paint_picture};
+use crate::app::progress_strip::{self, State};
 use crate::app::scene_view::{SceneView, axis_gizmo, page_from_screen, screen_from_page, view_through};
 use crate::app::surfaces::gesture::{Gesture, fine_step, picked};
 use crate::app::surfaces::shape_store::ShapeStore;
 use crate::app::surfaces::stencil::{self, StencilView};
 use crate::app::surfaces::target::{Target, arrows, center, shows_points, target_at, view_of};
-use crate::app::surfaces::{Picked, commands, eye_of, marks, start};
+use crate::app::surfaces::{Picked, context_menu, eye_of, overlay, start};
 use crate::document::{Object, ObjectId};
-use crate::figure::picture::{Picture, Viewport};
 use crate::figure::scene::{EyeView, Scene};
-use crate::figure::surfaces::{bounding_box, control_points, legend, legend_items};
+use crate::figure::surfaces::{bounding_box, control_points};
 
 /// Room around the objects when they are fitted, in pt.
 const FIT_MARGIN: f64 = 60.0;
@@ -30,9 +29,9 @@ pub(crate) struct Canvas {
     /// Which of the documents opened so far the eye was checked for.
     opened: Option<u64>,
     view: SceneView,
-    store: ShapeStore,
-    gesture: Option<Gesture>,
-    hovered: Target,
+    pub(super) store: ShapeStore,
+    pub(super) gesture: Option<Gesture>,
+    pub(super) hovered: Target,
     menu_target: Target,
     /// What is selected of a mesh beside its vertices.
     pub(super) picked: Picked,
@@ -70,7 +69,7 @@ impl Canvas {
         self.use_hands(lab, &response, &view, rect, ui);
         nudge(lab, &view, ui);
         self.view.paint(self.store.scene(), self.store.version(), &view, &lab.theme, rect, ui);
-        self.paint(lab, &view, rect, pointer, ui);
+        overlay::paint(self, lab, &view, rect, pointer, ui);
         self.announce(lab, rect, ui);
         let mut eye = eye_of(lab);
         if axis_gizmo(&mut eye, rect, &lab.theme, ui) {
@@ -81,22 +80,37 @@ impl Canvas {
             && let Some(page) = page
         {
             self.menu_target = target_at(self, lab, &view, page, true);
+            if let Target::Surface(object, _) | Target::Point(object, _) | Target::Edge(object, _) =
+                self.menu_target
+                && lab.selection.object != Some(object)
+            {
+                lab.selection.object = Some(object);
+                lab.selection.points.clear();
+            }
         }
         let target = self.menu_target;
-        response.context_menu(|ui| self.menu(target, lab, ui));
+        response.context_menu(|ui| context_menu::show(target, &mut self.picked, lab, ui));
+        self.show_progress(lab, rect, ui);
         if self.store.is_empty() {
             start::offer(rect, lab, ui);
+        }
+    }
+
+    /// How far a large shape is, with a button that stops it.
+    fn show_progress(&mut self, lab: &Lab, rect: Rect, ui: &mut Ui) {
+        let state = match self.store.progress() {
+            Some((part, seconds)) => State::Running(part, seconds),
+            None if self.store.given_up().is_some() => State::Stopped,
+            None => return,
+        };
+        if progress_strip::show(state, "Computing", "Compute", rect, &lab.theme, ui) {
+            if matches!(state, State::Stopped) { self.store.again() } else { self.store.cancel() }
         }
     }
 
     /// The scene that is shown.
     pub(super) fn scene(&self) -> &Scene {
         self.store.scene()
-    }
-
-    /// The shapes.
-    pub(super) fn store(&self) -> &ShapeStore {
-        &self.store
     }
 
     /// The stencil of the picked vertex.
@@ -154,6 +168,12 @@ impl Canvas {
             Command::Escape => {
                 if self.gesture.take().is_some() {
                     lab.history.cancel();
+                } else if self
+                    .store
+                    .progress()
+                    .is_some_and(|(_, seconds)| seconds > progress_strip::SHOWN_AFTER)
+                {
+                    self.store.cancel();
                 } else {
                     lab.selection.points.clear();
                     self.picked = Picked::Nothing;
@@ -245,84 +265,6 @@ impl Canvas {
         }
     }
 
-    fn paint(&self, lab: &Lab, view: &EyeView, rect: Rect, pointer: Option<Pos2>, ui: &Ui) {
-        let painter = ui.painter_at(rect);
-        let theme = &lab.theme;
-        let ink = color32(theme.selection);
-        let place = |at: DVec3| Some(screen_from_page(rect, view.project(at)?.page));
-        if let Some(object) = commands::selected(lab).filter(|object| object.visible) {
-            let points = control_points(object);
-            for at in lab.selection.points.iter().filter_map(|&point| place(*points.get(point)?)) {
-                painter.circle(at, 7.0, ink.gamma_multiply(0.35), Stroke::new(2.0, ink));
-            }
-        }
-        match self.hovered {
-            Target::Point(id, point) if self.gesture.is_none() => {
-                let object = lab.history.document().object(id);
-                let at = object.and_then(|object| control_points(object).get(point)).copied();
-                if let Some(at) = at.and_then(place) {
-                    painter.circle_stroke(at, 8.5, Stroke::new(2.0, ink));
-                }
-            }
-            Target::Edge(id, ends) => {
-                self.paint_edge(lab, id, ends, &place, Stroke::new(3.0, ink.gamma_multiply(0.5)), &painter);
-            }
-            _ => {}
-        }
-        if let Picked::Edge(id, ends) = self.picked {
-            self.paint_edge(lab, id, ends, &place, Stroke::new(3.5, ink), &painter);
-        }
-        if let Some(stencil) = self.stencil() {
-            marks::paint_stencil(&stencil, lab, &place, &painter);
-        }
-        marks::paint_arrows(lab, view, rect, self.hovered, &painter);
-        if let Some(legend) = legend(self.store.shown(), &selected_view(lab)) {
-            let mut picture = Picture::new(None);
-            picture.push_layer("colour scale", legend_items(legend, view.size, theme));
-            let viewport = Viewport { center: view.size * 0.5, scale: 1.0, size: view.size };
-            paint_picture(&picture, &viewport, rect, &painter);
-        }
-        if let Some(marquee) = self.gesture.as_ref().zip(pointer).and_then(|(g, at)| g.marquee(at)) {
-            painter.rect(marquee, 0.0, ink.gamma_multiply(0.12), Stroke::new(1.0, ink), StrokeKind::Inside);
-        }
-        if let Some((text, color)) = self.said(lab) {
-            let at = rect.center_top() + vec2(0.0, 14.0);
-            let size = 13.0 * theme.text_scale as f32;
-            paint_note(&painter, at, Align2::CENTER_TOP, &text, size, color, theme.background);
-        }
-    }
-
-    fn paint_edge(
-        &self,
-        lab: &Lab,
-        id: ObjectId,
-        ends: [u32; 2],
-        place: &dyn Fn(DVec3) -> Option<Pos2>,
-        stroke: Stroke,
-        painter: &egui::Painter,
-    ) {
-        let Some(mesh) = lab.history.document().object(id).and_then(|object| object.mesh()) else { return };
-        let end = |end: u32| mesh.cage().positions().get(end as usize).copied().and_then(place);
-        if let (Some(a), Some(b)) = (end(ends[0]), end(ends[1])) {
-            painter.line_segment([a, b], stroke);
-        }
-    }
-
-    /// The line at the top: what is wrong, what is going on, or what to do.
-    fn said(&self, lab: &Lab) -> Option<(String, crate::figure::picture::Color)> {
-        if let Some(problem) = self.store.shown().find_map(|(_, shape)| shape.problem.as_ref()) {
-            return Some((problem.clone(), lab.theme.error));
-        }
-        if self.store.is_busy() {
-            return Some(("Refining…".to_owned(), lab.theme.muted_text));
-        }
-        let untouched = lab.history.steps().0 <= 1 && lab.path.is_none() && lab.lesson.is_none();
-        (untouched && !self.store.is_empty()).then(|| {
-            let text = "Drag a round handle; hold X, Y or Z for an axis.  Middle drag turns, right drag moves, the wheel zooms.";
-            (text.to_owned(), lab.theme.muted_text)
-        })
-    }
-
     fn announce(&self, lab: &Lab, rect: Rect, ui: &Ui) {
         for (name, at) in self.handles(lab) {
             let area = Rect::from_center_size(at, vec2(18.0, 18.0));
@@ -345,46 +287,11 @@ impl Canvas {
             _ => CursorIcon::Default,
         });
     }
-
-    fn menu(&mut self, target: Target, lab: &mut Lab, ui: &mut Ui) {
-        ui.set_min_width(180.0);
-        if let Target::Edge(id, ends) = target {
-            ui.weak(format!("Edge {}–{}", ends[0], ends[1]));
-            for (text, sharpness) in
-                [("Smooth", 0.0), ("Sharpness 1", 1.0), ("Infinitely sharp", f64::INFINITY)]
-            {
-                if ui.button(text).clicked() {
-                    lab.selection.object = Some(id);
-                    self.picked = Picked::Edge(id, ends);
-                    commands::change(lab, "Change sharpness", |content| {
-                        commands::on_mesh(content, |mesh| mesh.with_sharpness(ends, sharpness))
-                    });
-                }
-            }
-            ui.separator();
-        }
-        let entries = if commands::selected(lab).is_some_and(|object| object.mesh().is_some()) {
-            [Command::LevelUp, Command::LevelDown, Command::ToggleSmooth, Command::ToggleNet, Command::Fit]
-        } else {
-            [Command::RefineU, Command::RefineV, Command::ToggleNormals, Command::ToggleNet, Command::Fit]
-        };
-        for command in entries {
-            let enabled = crate::app::command_state::is_possible(command, lab);
-            if ui.add_enabled(enabled, egui::Button::new(command.text().0)).clicked() {
-                lab.commands.push(command);
-            }
-        }
-    }
 }
 
 /// What points of an object are called.
 fn word(object: &Object) -> &'static str {
     if object.mesh().is_some() { "Vertex" } else { "Control point" }
-}
-
-/// The view with the selection of this moment.
-fn selected_view(lab: &Lab) -> crate::document::View {
-    crate::document::View { selected_object: lab.selection.object, ..Default::default() }
 }
 
 /// Whether all control points are on the canvas and not lost in it.
@@ -412,6 +319,8 @@ fn nudge(lab: &mut Lab, view: &EyeView, ui: &Ui) {
         let delta =
             (right * direction.x + up * direction.y) * (0.1 * fine_step(view, view.eye.depth(at)) * factor);
         let points = lab.selection.points.clone();
-        commands::change(lab, "Move points", |content| commands::moved(content, &points, delta));
+        super::commands::change(lab, "Move points", |content| {
+            super::commands::moved(content, &points, delta)
+        });
     }
 }

@@ -94,6 +94,19 @@ pub(super) fn on_mesh(
     }
 }
 
+/// Deletes vertices of the selected control mesh; the faces around an inner one become one polygon.
+pub(super) fn delete_vertices(lab: &mut Lab, vertices: BTreeSet<usize>) {
+    let label = match vertices.len() {
+        1 => "Delete vertex".to_owned(),
+        count => format!("Delete {count} vertices"),
+    };
+    let before = lab.history.revision();
+    change(lab, &label, |content| on_mesh(content, |mesh| mesh.without_vertices(&vertices)));
+    if lab.history.revision() != before {
+        lab.selection.points.clear();
+    }
+}
+
 /// Changes how the selected object is shown.
 fn show(lab: &mut Lab, on_surface: impl FnOnce(&mut SurfaceDisplay), on_mesh: impl FnOnce(&mut MeshDisplay)) {
     change(lab, "Change display", |content| match content {
@@ -159,6 +172,8 @@ pub(super) fn execute(command: Command, lab: &mut Lab) -> bool {
             let Some(object) = lab.selection.object else { return true };
             if lab.selection.points.is_empty() {
                 lab.edit(Edit::RemoveObjects { objects: vec![object] });
+            } else if selected(lab).is_some_and(|object| object.mesh().is_some()) {
+                delete_vertices(lab, lab.selection.points.clone());
             } else {
                 lab.problem(
                     "Single points of a net cannot be deleted. Press Escape, then Delete removes the object.",

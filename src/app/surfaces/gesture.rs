@@ -138,7 +138,7 @@ impl Gesture {
                     lab.selection.points.remove(&point);
                 }
             }
-            Target::Edge(object, _) | Target::Surface(object) => {
+            Target::Edge(object, _) | Target::Surface(object, _) => {
                 lab.selection.object = Some(object);
                 lab.selection.points.clear();
             }

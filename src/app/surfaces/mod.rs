@@ -3,7 +3,9 @@
 //! | file | what |
 //! |---|---|
 //! | `mod.rs` | [`Surfaces`], the workspace |
-//! | `canvas.rs` | the view, its handles, what is said on it |
+//! | `canvas.rs` | the view, its handles, the hands on it |
+//! | `overlay.rs`, `marks.rs` | what is painted over the scene |
+//! | `context_menu.rs` | the menu of the thing under the pointer |
 //! | `gesture.rs` | the left button between press and release |
 //! | `target.rs` | what lies under the pointer |
 //! | `commands.rs` | commands that change the selected object |
@@ -14,9 +16,11 @@
 
 mod canvas;
 pub(super) mod commands;
+mod context_menu;
 mod gesture;
 mod inspector;
 mod marks;
+mod overlay;
 mod shape_store;
 mod start;
 mod stencil;

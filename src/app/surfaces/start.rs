@@ -8,7 +8,7 @@ use crate::core::surface::{mesh_shapes, samples};
 use crate::document::{Content, Edit, EditError, MeshDisplay, MeshObject, SurfaceDisplay, SurfaceObject};
 
 /// The surfaces of the course by name.
-const SURFACES: [&str; 4] = ["Torus", "Helical staircase", "Partially closed", "Sphere octant"];
+const SURFACES: [&str; 5] = ["Torus", "Sphere", "Helical staircase", "Partially closed", "Sphere octant"];
 
 /// The meshes that an empty canvas offers.
 const FIRST_MESHES: [&str; 4] = ["Cube", "L-block", "Open sheet", "Creased cube"];
@@ -17,6 +17,7 @@ fn surface(name: &str, color: usize) -> Result<Content, EditError> {
     let surface = match name {
         "Torus" => samples::torus().into(),
         "Helical staircase" => samples::helical_staircase().into(),
+        "Sphere" => samples::sphere(),
         "Partially closed" => samples::partially_closed().into(),
         _ => samples::sphere_octant(),
     };
@@ -87,7 +88,7 @@ pub(super) fn offer(rect: Rect, lab: &mut Lab, ui: &Ui) {
             ui.set_width(372.0_f32.min(rect.width() - 60.0));
             ui.heading("Start with…");
             for (title, names) in
-                [("a spline surface", &SURFACES[..3]), ("a mesh that is subdivided", &FIRST_MESHES[..])]
+                [("a spline surface", &SURFACES[..4]), ("a mesh that is subdivided", &FIRST_MESHES[..])]
             {
                 ui.add_space(8.0);
                 ui.label(RichText::new(title).weak());

@@ -1,10 +1,13 @@
 //! What lies under the pointer.
 
+use std::sync::Arc;
+
 use eframe::egui::Rect;
 use glam::{DVec2, DVec3};
 
 use crate::app::lab::Lab;
 use crate::app::surfaces::canvas::Canvas;
+use crate::core::surface::catmull_clark::SubdivisionStep;
 use crate::document::{Content, Object, ObjectId};
 use crate::figure::scene::{EyeView, nearest_point};
 use crate::figure::surfaces::control_points;
@@ -31,8 +34,8 @@ pub(super) enum Target {
     Point(ObjectId, usize),
     /// An edge of a control mesh.
     Edge(ObjectId, [u32; 2]),
-    /// A surface.
-    Surface(ObjectId),
+    /// A surface; of a mesh with the face of the control mesh.
+    Surface(ObjectId, Option<usize>),
 }
 
 /// An arrow at the selected points, on the page.
@@ -83,7 +86,10 @@ pub(super) fn target_at(canvas: &Canvas, lab: &Lab, view: &EyeView, page: DVec2,
     }
     let objects = lab.history.document().objects();
     let selected = super::commands::selected(lab).filter(|object| shows_points(object));
-    let others = objects.iter().rev().filter(|object| shows_points(object));
+    let others = objects
+        .iter()
+        .rev()
+        .filter(|object| shows_points(object) && selected.is_none_or(|selected| selected.id != object.id));
     for object in selected.into_iter().chain(others.clone()) {
         if let Some(hit) = nearest_point(view, control_points(object), page, POINT_REACH) {
             return Target::Point(object.id, hit.index);
@@ -95,7 +101,9 @@ pub(super) fn target_at(canvas: &Canvas, lab: &Lab, view: &EyeView, page: DVec2,
         }
     }
     if deep && let Some(hit) = canvas.scene().pick_triangle(view, page) {
-        return canvas.object_of_layer(hit.layer).map_or(Target::Nothing, Target::Surface);
+        return canvas.object_of_layer(hit.layer).map_or(Target::Nothing, |object| {
+            Target::Surface(object, cage_face(canvas, lab, object, hit.hit.triangle))
+        });
     }
     Target::Nothing
 }
@@ -115,6 +123,21 @@ fn edge_at(object: &Object, view: &EyeView, page: DVec2) -> Option<[u32; 2]> {
         (distance(page, a.page, b.page) <= EDGE_REACH).then_some((a.depth + b.depth, ends))
     });
     hits.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, ends)| ends)
+}
+
+/// The face of the control mesh in which a triangle of the drawn mesh lies.
+fn cage_face(canvas: &Canvas, lab: &Lab, object: ObjectId, triangle: usize) -> Option<usize> {
+    let (made_of, shape) = canvas.store.shape(object)?;
+    let cage = made_of.mesh()?.cage();
+    let is_current = lab.history.document().object(object).is_some_and(|now| Arc::ptr_eq(now, made_of));
+    let refined = shape.steps.last().map_or(cage, |step| &step.mesh);
+    let mut before = 0;
+    let face = refined.topology().faces().position(|face| {
+        before += face.len() - 2;
+        triangle < before
+    })?;
+    let parent = |face, step: &SubdivisionStep| step.parents.get(face).map(|&parent| parent as usize);
+    shape.steps.iter().rev().try_fold(face, parent).filter(|_| is_current)
 }
 
 /// Distance of a point from a segment.

@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::core::progress::Stopped;
+
 /// Errors of polygon meshes and their subdivision; faces, edges and vertices are named by their numbers, counted from 0.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum MeshError {
@@ -110,6 +112,15 @@ pub enum MeshError {
         /// The largest possible value.
         limit: usize,
     },
+    /// The faces that a deleted vertex leaves do not make one polygon.
+    #[error("the faces around vertex {vertex} do not make one polygon")]
+    NoPolygon {
+        /// The vertex.
+        vertex: usize,
+    },
+    /// A watcher has stopped the work.
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
     /// A geometric quantity is undefined.
     #[error("{what} at vertex {vertex} is undefined")]
     Degenerate {
@@ -127,7 +138,7 @@ impl MeshError {
             Self::Empty { .. } => "Empty",
             Self::NonFinite { .. } => "NonFinite",
             Self::IndexOutOfRange { .. } | Self::NoSuchElement { .. } => "IndexOutOfRange",
-            Self::DegenerateFace { .. } => "DegenerateFace",
+            Self::DegenerateFace { .. } | Self::NoPolygon { .. } => "DegenerateFace",
             Self::DuplicateFace { .. } => "DuplicateFace",
             Self::NonManifoldEdge { .. } => "NonManifoldEdge",
             Self::InconsistentOrientation { .. } => "InconsistentOrientation",
@@ -137,6 +148,7 @@ impl MeshError {
             Self::OpenBoundary { .. } => "OpenBoundary",
             Self::EmptyResult => "EmptyResult",
             Self::StepLimit { .. } => "StepLimit",
+            Self::Stopped(_) => "Stopped",
             Self::Degenerate { .. } => "Degenerate",
         }
     }

@@ -76,6 +76,11 @@ impl MeshTopology {
         if self.is_quads() { self.corner_vertices.len() / 4 } else { self.face_starts.len() - 1 }
     }
 
+    /// Number of corners of all faces together.
+    pub fn corner_count(&self) -> usize {
+        self.corner_vertices.len()
+    }
+
     /// Whether all faces are quadrilaterals.
     pub fn is_quads(&self) -> bool {
         self.face_starts.is_empty()

@@ -10,6 +10,7 @@
 //! | `curvature` | B.9 fundamental forms, Gaussian, mean and principal curvature |
 //! | `samples` | 8.1, 8.2 surfaces of the course |
 //! | `mesh_topology`, `polygon_mesh` | 8.3 connectivity; meshes with positions and creases |
+//! | `mesh_deletion` | 8.3 meshes without some vertices or faces |
 //! | `mesh_shapes` | 8.3 meshes to start from |
 //! | `catmull_clark` | 8.3 subdivision, limits, stencils |
 
@@ -18,6 +19,7 @@ mod curvature;
 mod error;
 mod grid;
 mod measure;
+mod mesh_deletion;
 mod mesh_error;
 pub mod mesh_shapes;
 mod mesh_topology;

@@ -74,3 +74,45 @@ pub fn sphere_octant() -> NurbsSurface {
     let weights = nine.map(|(i, j)| w[i] * w[j]);
     NurbsSurface::new(space, points.collect(), weights.collect()).expect("finite points and positive weights")
 }
+
+/// The unit sphere over `[0, 4] × [0, 2]`: u is the longitude in quarters, v runs from the south pole to the north; `r_u × r_v` points
+/// outwards. At the poles a row of the net is one point.
+pub fn sphere() -> NurbsSurface {
+    let around = [[1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [-1.0, 1.0], [-1.0, 0.0]];
+    let up = [[0.0, -1.0], [1.0, -1.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    // Quarters of a circle: double knots, and every other point is a corner of the square around it.
+    let quarters = |count: i32| {
+        let inner = (0..=count).flat_map(|k| [f64::from(k); 2]);
+        let knots = std::iter::once(-1.0).chain(inner).chain([f64::from(count + 1)]).collect();
+        SplineSpace::new(2, knots).expect("end-interpolating knots")
+    };
+    let weight = |k: usize| if k.is_multiple_of(2) { 1.0 } else { FRAC_1_SQRT_2 };
+    let space = TensorSplineSpace::new([quarters(4), quarters(2)]).expect("two directions");
+    let net = (0..9).flat_map(|i| (0..5).map(move |j| (i, j)));
+    let points = net.clone().map(|(i, j)| {
+        // The second half of the circle is the first, turned by half a turn.
+        let [x, y] = if i < 5 { around[i] } else { around[i - 4].map(|coordinate| -coordinate) };
+        DVec3::new(x * up[j][0], y * up[j][0], up[j][1])
+    });
+    let weights = net.map(|(i, j)| weight(i) * weight(j));
+    NurbsSurface::new(space, points.collect(), weights.collect()).expect("finite points and positive weights")
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests stop at the first surprise")]
+
+    use super::*;
+
+    #[test]
+    fn the_sphere_is_round_and_its_normals_point_outwards() {
+        let sphere = sphere();
+        for (u, v) in (0..=16).flat_map(|i| (1..8).map(move |j| (f64::from(i) / 4.0, f64::from(j) / 4.0))) {
+            let point = sphere.evaluate([u, v]).unwrap();
+            assert!((point.length() - 1.0).abs() < 1e-14, "{point} at ({u}, {v})");
+            assert!(sphere.normal([u, v]).unwrap().distance(point) < 1e-12, "the normal at ({u}, {v})");
+        }
+        let volume = sphere.enclosed_volume().unwrap();
+        assert!((volume - 2.0 / 3.0 * TAU).abs() < 1e-6, "{volume}");
+    }
+}

@@ -6,9 +6,11 @@
 
 mod elements;
 mod fit;
+mod mesh;
 mod number;
 mod place_point;
 mod shape_goal;
+mod surface;
 
 use glam::DVec2;
 use serde::Deserialize;
@@ -20,8 +22,10 @@ use crate::document::{Document, ObjectId};
 
 pub use elements::ElementsQuantity;
 pub use fit::FitTask;
+pub use mesh::MeshQuantity;
 pub use number::{Axis, Quantity};
 pub use shape_goal::Goal;
+pub use surface::{SpaceAxis, SurfaceQuantity};
 
 /// A question of a lesson.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -52,6 +56,20 @@ pub enum Task {
     Elements {
         /// The number that the core computes.
         quantity: ElementsQuantity,
+        /// The largest difference that counts as right.
+        tolerance: f64,
+    },
+    /// Type a number of a spline surface.
+    Surface {
+        /// The number that the core computes.
+        quantity: SurfaceQuantity,
+        /// The largest difference that counts as right.
+        tolerance: f64,
+    },
+    /// Type a number of a subdivided mesh.
+    Mesh {
+        /// The number that the core computes.
+        quantity: MeshQuantity,
         /// The largest difference that counts as right.
         tolerance: f64,
     },
@@ -133,6 +151,23 @@ impl Question {
                 };
                 typed(answer, |value| elements::check(membrane, quantity, *tolerance, value, &self.feedback))
             }
+            Task::Surface { quantity, tolerance } => {
+                let object = document.object(ObjectId(self.object));
+                let Some(surface) = object.and_then(|object| object.surface()) else {
+                    return Verdict::wrong(
+                        None,
+                        "The surface of this question is gone. Open the lesson again.",
+                    );
+                };
+                typed(answer, |value| surface::check(surface, quantity, *tolerance, value, &self.feedback))
+            }
+            Task::Mesh { quantity, tolerance } => {
+                let object = document.object(ObjectId(self.object));
+                let Some(mesh) = object.and_then(|object| object.mesh()) else {
+                    return Verdict::wrong(None, "The mesh of this question is gone. Open the lesson again.");
+                };
+                typed(answer, |value| mesh::check(mesh, quantity, *tolerance, value, &self.feedback))
+            }
             Task::Number { .. } | Task::PlacePoint { .. } | Task::Shape { .. } => {
                 match document.curve(ObjectId(self.object)) {
                     Some(curve) => self.check_curve(document, curve, answer),
@@ -164,6 +199,8 @@ impl Question {
         match &self.task {
             Task::Number { quantity, .. } => quantity.compute(object.curve()?).ok(),
             Task::Elements { quantity, .. } => quantity.compute(object.membrane()?.0).ok(),
+            Task::Surface { quantity, .. } => quantity.compute(object.surface()?).ok(),
+            Task::Mesh { quantity, .. } => quantity.compute(object.mesh()?).ok(),
             Task::Fit { method, asked } => {
                 let data = object.approximation()?;
                 let scheme = &data.methods().get(*method)?.scheme;

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-use crate::core::surface::{INFINITE_SHARPNESS, PolygonMesh};
+use crate::core::progress::{Part, Stopped, Watcher};
+use crate::core::surface::{INFINITE_SHARPNESS, MeshError, PolygonMesh};
 use crate::document::{MeshObject, SurfaceColoring};
 use crate::figure::error::FigureError;
 use crate::figure::picture::{Color, MarkerShape};
@@ -12,7 +13,7 @@ use crate::figure::scene::{Line, Points, SceneItem, Triangles};
 use crate::figure::surfaces::mesh_curvature::curvatures;
 use crate::figure::surfaces::mesh_faces::{Corners, edge_lines, flat_corners, smooth_corners};
 use crate::figure::surfaces::surface_layers::handles;
-use crate::figure::surfaces::{Legend, Shape, coloring, layer};
+use crate::figure::surfaces::{Fault, Legend, Shape, coloring, layer};
 use crate::figure::theme::Theme;
 
 /// The wireframe is drawn up to so many faces; more are closer than the lines are wide.
@@ -23,23 +24,33 @@ const MAX_WAYS: usize = 400;
 const MAX_MARKS: usize = 5000;
 
 /// The shape of a mesh; what cannot be computed is missing, and the reason is told.
-pub(super) fn shape(name: &str, object: &MeshObject, theme: &Theme) -> Shape {
+pub(super) fn shape(
+    name: &str,
+    object: &MeshObject,
+    theme: &Theme,
+    watcher: &dyn Watcher,
+) -> Result<Shape, Stopped> {
     let mut shape = Shape::default();
-    match object.steps() {
+    match object.steps_watched(&Part { whole: watcher, from: 0.0, to: 0.4 }) {
         Ok(steps) => shape.steps = steps,
+        Err(MeshError::Stopped(stopped)) => return Err(stopped),
         Err(error) => shape.problem = Some(format!("{name}: {error}")),
     }
+    watcher.check(0.4)?;
     let refined = shape.steps.last().map_or(object.cage(), |step| &step.mesh);
     shape.vertices = if object.display().limit {
         refined.limit_positions(object.fixes_corners())
     } else {
         refined.positions().to_vec()
     };
-    match layers(name, object, refined, &shape.vertices, theme) {
+    watcher.check(0.5)?;
+    match layers(name, object, refined, &shape.vertices, theme, watcher) {
         Ok((layers, legend)) => (shape.layers, shape.legend) = (layers, legend),
-        Err(error) => shape.problem = Some(format!("{name}: {error}")),
+        Err(Fault::Stopped(stopped)) => return Err(stopped),
+        Err(fault) => shape.problem = Some(format!("{name}: {fault}")),
     }
-    shape
+    watcher.check(1.0)?;
+    Ok(shape)
 }
 
 type Layers = (Vec<crate::figure::scene::SceneLayer>, Option<Legend>);
@@ -50,9 +61,11 @@ fn layers(
     refined: &PolygonMesh,
     positions: &[DVec3],
     theme: &Theme,
-) -> Result<Layers, FigureError> {
+    watcher: &dyn Watcher,
+) -> Result<Layers, Fault> {
     let display = object.display();
-    let (triangles, legend) = triangles(object, refined, positions, theme)?;
+    let (triangles, legend) = triangles(object, refined, positions, theme, watcher)?;
+    watcher.check(0.85)?;
     let mut layers = vec![layer(name, "faces", vec![SceneItem::Triangles(triangles)])];
     let is_cage = object.level() == 0;
     if display.wireframe && !(is_cage && display.cage) && refined.topology().face_count() <= MAX_WIREFRAME {
@@ -91,11 +104,13 @@ fn triangles(
     refined: &PolygonMesh,
     positions: &[DVec3],
     theme: &Theme,
-) -> Result<(Triangles, Option<Legend>), FigureError> {
+    watcher: &dyn Watcher,
+) -> Result<(Triangles, Option<Legend>), Fault> {
     let display = object.display();
     let smooth = display.smooth && object.level() > 0;
     let Corners { vertices, normals, triangles } =
         if smooth { smooth_corners(refined, positions) } else { flat_corners(refined, positions) };
+    watcher.check(0.65)?;
     let points = vertices.iter().map(|&vertex| positions[vertex as usize]).collect();
     let mut triangles = Triangles::new(points, triangles, theme.basis_color(display.color))?;
     if normals.iter().all(|normal| normal.is_finite()) {
@@ -106,6 +121,7 @@ fn triangles(
         triangles.back_color = (!refined.topology().is_closed()).then_some(theme.surface_back);
         return Ok((triangles, None));
     }
+    watcher.check(0.75)?;
     let value = |(gaussian, principal)| display.coloring.value(gaussian, principal).unwrap_or(f64::NAN);
     let values: Vec<f64> = curvatures(refined, positions).into_iter().map(value).collect();
     let (colors, legend) = coloring::colors(&values, display.coloring, display.color_limit, theme);
@@ -173,13 +189,14 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "tests stop at the first surprise")]
 
     use super::*;
+    use crate::core::progress::Unwatched;
     use crate::core::surface::mesh_shapes;
     use crate::document::MeshDisplay;
 
     fn marks(level: usize) -> Vec<usize> {
         let display = MeshDisplay { valences: true, ..MeshDisplay::default() };
         let mesh = MeshObject::from_cage(mesh_shapes::cube(), display).unwrap().with_level(level).unwrap();
-        let shape = shape("Cube", &mesh, &Theme::light());
+        let shape = shape("Cube", &mesh, &Theme::light(), &Unwatched).unwrap();
         let layer = shape.layers.iter().find(|layer| layer.name.ends_with("valences")).unwrap();
         layer
             .items
@@ -199,7 +216,7 @@ mod tests {
     fn the_wireframe_stands_where_the_faces_do() {
         let display = MeshDisplay { limit: true, ..MeshDisplay::default() };
         let mesh = MeshObject::from_cage(mesh_shapes::cube(), display).unwrap();
-        let shape = shape("Cube", &mesh, &Theme::light());
+        let shape = shape("Cube", &mesh, &Theme::light(), &Unwatched).unwrap();
         let expected = mesh.cage().limit_positions(false);
         for (vertex, limit) in expected.iter().enumerate() {
             assert!(shape.vertices[vertex].distance(*limit) < 1e-12, "a step does not change limits");

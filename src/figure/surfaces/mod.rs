@@ -17,6 +17,8 @@ mod surface_layers;
 
 use glam::{DVec2, DVec3};
 
+use crate::core::progress::{Stopped, Unwatched, Watcher};
+use crate::core::surface::SurfaceError;
 use crate::core::surface::catmull_clark::SubdivisionStep;
 use crate::document::{Content, Document, Object, View};
 use crate::figure::color_bar::color_bar;
@@ -55,12 +57,36 @@ pub struct Shape {
     pub problem: Option<String>,
 }
 
+/// Why a part of an object cannot be drawn.
+#[derive(Debug, thiserror::Error)]
+enum Fault {
+    #[error(transparent)]
+    Surface(#[from] SurfaceError),
+    #[error(transparent)]
+    Figure(#[from] FigureError),
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
+}
+
 /// The layers of a surface or a mesh; `None` for objects of other rooms.
 pub fn shape(object: &Object, theme: &Theme) -> Option<Shape> {
+    shape_watched(object, theme, &Unwatched).ok().flatten()
+}
+
+/// As [`shape`] with a watcher.
+///
+/// # Errors
+///
+/// [`Stopped`].
+pub fn shape_watched(
+    object: &Object,
+    theme: &Theme,
+    watcher: &dyn Watcher,
+) -> Result<Option<Shape>, Stopped> {
     match &object.content {
-        Content::Surface(surface) => Some(surface_layers::shape(&object.name, surface, theme)),
-        Content::Mesh(mesh) => Some(mesh_layers::shape(&object.name, mesh, theme)),
-        _ => None,
+        Content::Surface(surface) => surface_layers::shape(&object.name, surface, theme, watcher).map(Some),
+        Content::Mesh(mesh) => mesh_layers::shape(&object.name, mesh, theme, watcher).map(Some),
+        _ => Ok(None),
     }
 }
 

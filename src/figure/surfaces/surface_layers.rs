@@ -2,12 +2,13 @@
 
 use glam::DVec3;
 
+use crate::core::progress::{Stopped, Watcher};
 use crate::core::surface::{NurbsSurface, SurfaceError};
 use crate::document::{SurfaceColoring, SurfaceObject};
 use crate::figure::error::FigureError;
 use crate::figure::picture::{MarkerShape, Stroke};
 use crate::figure::scene::{Line, Points, SceneItem, Triangles};
-use crate::figure::surfaces::{Shape, coloring, layer};
+use crate::figure::surfaces::{Fault, Legend, Shape, coloring, layer};
 use crate::figure::theme::Theme;
 
 /// Length of a normal as a part of the surface's size.
@@ -15,27 +16,28 @@ const NORMAL: f64 = 0.07;
 /// Normals for every knot interval, and at most along a direction.
 const NORMALS: (usize, usize) = (3, 24);
 
-/// Why a surface cannot be drawn.
-#[derive(Debug, thiserror::Error)]
-enum Fault {
-    #[error(transparent)]
-    Surface(#[from] SurfaceError),
-    #[error(transparent)]
-    Figure(#[from] FigureError),
-}
+/// The watcher is asked after so many curvatures.
+const WATCHED: usize = 4096;
 
 /// The shape of a surface; what cannot be computed is missing, and the reason is told.
-pub(super) fn shape(name: &str, object: &SurfaceObject, theme: &Theme) -> Shape {
+pub(super) fn shape(
+    name: &str,
+    object: &SurfaceObject,
+    theme: &Theme,
+    watcher: &dyn Watcher,
+) -> Result<Shape, Stopped> {
     let mut shape = Shape::default();
     let mut parts: Vec<(&str, Result<Vec<SceneItem>, Fault>)> = Vec::new();
     let (surface, display) = (object.surface(), object.display());
-    match triangles(object, theme) {
+    match triangles(object, theme, watcher) {
         Ok((triangles, legend)) => {
             shape.legend = legend;
             parts.push(("surface", Ok(vec![SceneItem::Triangles(triangles)])));
         }
+        Err(Fault::Stopped(stopped)) => return Err(stopped),
         Err(fault) => parts.push(("surface", Err(fault))),
     }
+    watcher.check(0.9)?;
     if display.isolines > 0 {
         let lines = |axis: usize| between(&surface.space().axes()[axis].breaks(), display.isolines);
         let stroke = theme.stroke(theme.surface_line.with_opacity(0.7), 0.6);
@@ -57,12 +59,18 @@ pub(super) fn shape(name: &str, object: &SurfaceObject, theme: &Theme) -> Shape 
             Err(fault) => shape.problem = Some(format!("{name}: {fault}")),
         }
     }
-    shape
+    Ok(shape)
 }
 
-fn triangles(object: &SurfaceObject, theme: &Theme) -> Result<(Triangles, Option<super::Legend>), Fault> {
+fn triangles(
+    object: &SurfaceObject,
+    theme: &Theme,
+    watcher: &dyn Watcher,
+) -> Result<(Triangles, Option<Legend>), Fault> {
     let (surface, display) = (object.surface(), object.display());
+    watcher.check(0.0)?;
     let grid = surface.tessellate([display.density; 2])?;
+    watcher.check(0.1)?;
     let color = theme.basis_color(display.color);
     let mut triangles = Triangles::new(grid.points, grid.triangles, color)?;
     // Coordinates so large that normals overflow leave the faces flat.
@@ -77,7 +85,12 @@ fn triangles(object: &SurfaceObject, theme: &Theme) -> Result<(Triangles, Option
         let curvatures = surface.curvatures(at.to_array()).ok()?;
         display.coloring.value(curvatures.gaussian, curvatures.principal)
     };
-    let values: Vec<f64> = grid.parameters.iter().map(|at| value(at).unwrap_or(f64::NAN)).collect();
+    let count = grid.parameters.len();
+    let mut values = Vec::with_capacity(count);
+    for some in grid.parameters.chunks(WATCHED) {
+        watcher.check(0.1 + 0.8 * values.len() as f64 / count as f64)?;
+        values.extend(some.iter().map(|at| value(at).unwrap_or(f64::NAN)));
+    }
     let (colors, legend) = coloring::colors(&values, display.coloring, display.color_limit, theme);
     triangles = triangles.with_colors(colors)?;
     triangles.is_lit = false;
@@ -166,6 +179,7 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "tests stop at the first surprise")]
 
     use super::*;
+    use crate::core::progress::Unwatched;
     use crate::core::surface::samples;
     use crate::document::SurfaceDisplay;
 
@@ -178,7 +192,7 @@ mod tests {
             ..SurfaceDisplay::default()
         };
         let object = SurfaceObject::new(samples::sphere_octant(), display).unwrap();
-        let shape = shape("Sphere", &object, &Theme::light());
+        let shape = shape("Sphere", &object, &Theme::light(), &Unwatched).unwrap();
         let SceneItem::Triangles(triangles) = &shape.layers[0].items[0] else { panic!("no triangles") };
         let expected = shape.legend.unwrap().scale.color(1.0);
         let theme = Theme::light();

@@ -56,7 +56,7 @@ fn subdivision(lab: &mut Lab, canvas: &Canvas, ui: &mut Ui, object: &Arc<Object>
             }
         }
     });
-    let refined = canvas.store().shape(object.id).and_then(|(made_of, shape)| {
+    let refined = canvas.store.shape(object.id).and_then(|(made_of, shape)| {
         let is_current = made_of.mesh().is_some_and(|made| made.level() == mesh.level());
         let steps = shape.steps.last().filter(|_| is_current);
         steps.map(|step| step.mesh.counts())

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use crate::core::progress::{Unwatched, Watcher};
 use crate::core::surface::catmull_clark::masks::child_sharpness;
 use crate::core::surface::catmull_clark::refinement::{write_quads, write_smooth_positions, write_topology};
 use crate::core::surface::catmull_clark::stencil::{Origin, Stencil};
@@ -88,9 +89,25 @@ impl PolygonMesh {
         levels: usize,
         rule: BoundaryRule,
     ) -> Result<Vec<SubdivisionStep>, MeshError> {
+        self.subdivide_levels_watched(levels, rule, &Unwatched)
+    }
+
+    /// As [`Self::subdivide_levels`] with a watcher, who is asked before every step.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::subdivide_levels`]; `Stopped`.
+    pub fn subdivide_levels_watched(
+        &self,
+        levels: usize,
+        rule: BoundaryRule,
+        watcher: &dyn Watcher,
+    ) -> Result<Vec<SubdivisionStep>, MeshError> {
         self.check_size(levels)?;
         let mut steps: Vec<SubdivisionStep> = Vec::with_capacity(levels);
-        for _ in 0..levels {
+        for level in 0..levels {
+            // Every step takes four times as long as the one before.
+            watcher.check((4_f64.powi(level as i32) - 1.0) / (4_f64.powi(levels as i32) - 1.0))?;
             let step = steps.last().map_or(self, |step| &step.mesh).subdivide(rule)?;
             steps.push(step);
         }
