@@ -185,7 +185,7 @@ mod tests {
     fn every_formula_of_every_lesson_can_be_typeset() {
         for lesson in lessons() {
             for source in lesson.formulas() {
-                if let Err(error) = crate::figure::formula::layout(&source, 12.0) {
+                if let Err(error) = layout(&source, 12.0) {
                     panic!("{}: {source}: {error}", lesson.section);
                 }
             }
