@@ -9,18 +9,22 @@
 //! | `builders`, `multiple_end_knots` | 4.4 spaces from breaks, and from the knots of other programs |
 //! | `uniform` | 4.4 Taylor coefficients of the uniform B-spline |
 //! | `piecewise` | 4.4 coefficients of piecewise polynomials and Hermite data |
+//! | `power_form` | 4.4 the pieces as polynomials, for many evaluations |
 //! | `spline` | 4.5 splines and de Boor's algorithm |
+//! | `batch` | 4.5 many values at once |
 //! | `integral` | 4.5 antiderivative, integral, mean |
 //! | `unroll` | 4.6 a period as an open spline |
 
 mod basis;
 mod basis_derivative;
+mod batch;
 mod builders;
 mod derivative;
 mod error;
 mod integral;
 mod multiple_end_knots;
 mod piecewise;
+mod power_form;
 mod space;
 mod spline;
 mod uniform;
@@ -31,6 +35,7 @@ pub use builders::EndKnots;
 pub use derivative::BSplineSum;
 pub use error::{Side, SplineError};
 pub use piecewise::PolynomialPiece;
+pub use power_form::PowerForm;
 pub use space::{DistinctKnot, MAX_DEGREE, SplineSpace};
 pub use spline::{DeBoorScheme, Spline};
 pub use uniform::{uniform_evaluate, uniform_taylor};

@@ -3,6 +3,7 @@
 //! | file | what |
 //! |---|---|
 //! | `nurbs` | 6.1 the rational curve |
+//! | `batch` | many points at once |
 //! | `editing` | replaced points and weights, reversed, split, opened and closed curves, the circle |
 //! | `knot_insertion` | 6.3 one knot, many knots, uniform refinement |
 //! | `knot_removal` | the nearest curve with one knot less |
@@ -12,6 +13,7 @@
 //! | `curvature` | frames, signed curvature, osculating circles |
 //! | `deviation` | certified distance of two curves at equal parameters |
 
+mod batch;
 mod bezier_form;
 mod closest_point;
 mod curvature;
