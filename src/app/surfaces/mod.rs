@@ -76,7 +76,6 @@ impl Workspace for Surfaces {
         if is_mesh {
             button("Smooth", Command::ToggleSmooth, lab, ui);
             button("Limits", Command::ToggleLimits, lab, ui);
-            button("Valences", Command::ToggleValences, lab, ui);
         } else {
             button("Normals", Command::ToggleNormals, lab, ui);
         }

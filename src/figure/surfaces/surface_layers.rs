@@ -78,7 +78,9 @@ fn triangles(
         triangles = triangles.with_normals(grid.normals)?;
     }
     if display.coloring == SurfaceColoring::Plain {
-        triangles.back_color = Some(theme.surface_back);
+        // The inside of a surface that is closed in both directions is not seen, whichever way its normals point.
+        let is_closed = surface.space().axes().iter().all(|axis| axis.is_periodic());
+        triangles.back_color = (!is_closed).then_some(theme.surface_back);
         return Ok((triangles, None));
     }
     let value = |at: &glam::DVec2| {

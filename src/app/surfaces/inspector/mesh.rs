@@ -167,7 +167,7 @@ fn stencil(canvas: &mut Canvas, ui: &mut Ui) {
                 ui.selectable_value(&mut canvas.one_step, true, "of the last step");
             });
         }
-        let height = 8.0 * (ui.spacing().interact_size.y + 2.0);
+        let height = 9.5 * (ui.spacing().interact_size.y + 2.0);
         eframe::egui::ScrollArea::vertical().id_salt("stencil").max_height(height).show(ui, |ui| {
             Grid::new("stencil table").num_columns(3).spacing([16.0, 2.0]).striped(true).show(ui, |ui| {
                 for head in ["vertex", "weight", ""] {

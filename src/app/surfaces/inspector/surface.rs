@@ -50,7 +50,9 @@ fn direction(lab: &mut Lab, ui: &mut Ui, surface: &SurfaceObject, axis: usize) {
     }
     ui.label(RichText::new(format!("Knots  {}", text.join("  "))).weak());
     let id = Id::unique(("knot to insert", axis));
-    let middle = 0.5 * low + 0.5 * high;
+    let breaks = space.breaks();
+    let longest = breaks.windows(2).max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
+    let middle = longest.map_or(low, |ends| 0.5 * ends[0] + 0.5 * ends[1]);
     let mut knot =
         ui.data(|data| data.get_temp::<f64>(id)).filter(|t| (low..=high).contains(t)).unwrap_or(middle);
     ui.horizontal_wrapped(|ui| {
