@@ -8,7 +8,7 @@ use crate::app::lab::Lab;
 use crate::app::worker::Worker;
 use crate::core::progress::Watcher;
 use crate::core::surface::SurfaceError;
-use crate::document::Object;
+use crate::document::{Object, SurfaceObject};
 use crate::figure::composition::short_number;
 
 /// Error of the area as a part of the square of the size.
@@ -31,9 +31,9 @@ impl Default for Measures {
 impl Measures {
     /// The sentence for `object`, if it is known already. While somebody drags it waits.
     pub(super) fn of(&mut self, object: &Arc<Object>, lab: &Lab, ctx: &Context) -> Option<&str> {
-        let is = |other: &Option<Arc<Object>>| other.as_ref().is_some_and(|other| Arc::ptr_eq(other, object));
-        let is_known = self.known.as_ref().is_some_and(|(known, _)| Arc::ptr_eq(known, object));
-        if !is_known && !is(&self.asked) && !lab.history.is_interacting() {
+        let is_known = self.known.as_ref().is_some_and(|(known, _)| is_same(known, object));
+        let is_asked = self.asked.as_ref().is_some_and(|asked| is_same(asked, object));
+        if !is_known && !is_asked && !lab.history.is_interacting() {
             self.worker.ask(object.clone(), lab.at_once, ctx);
             self.asked = Some(object.clone());
         }
@@ -41,8 +41,13 @@ impl Measures {
             self.known = Some((object, text));
         }
         let (known, text) = self.known.as_ref()?;
-        Arc::ptr_eq(known, object).then_some(text)
+        is_same(known, object).then_some(text)
     }
+}
+
+/// Whether both have the same surface; they may be shown differently.
+fn is_same(a: &Arc<Object>, b: &Arc<Object>) -> bool {
+    Arc::ptr_eq(a, b) || a.surface().map(SurfaceObject::surface) == b.surface().map(SurfaceObject::surface)
 }
 
 /// The sentence; `None` if the watcher stopped it.
