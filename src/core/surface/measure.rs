@@ -44,9 +44,9 @@ impl NurbsSurface {
         // Distances from a point of the surface, so that far away surfaces do not lose digits.
         let origin = self.points()[0];
         let density = |jet: &SurfaceJet| (jet.point - origin).dot(jet.du.cross(jet.dv)) / 3.0;
-        let rules = self.space().degrees().map(|n| rule((3 * n).div_ceil(2)));
         let cells = self.cells();
         if self.is_polynomial() {
+            let rules = self.space().degrees().map(|n| rule((3 * n).div_ceil(2)));
             let mut sum = 0.0;
             let count = cells.len() as f64;
             for (done, cell) in cells.into_iter().enumerate() {
@@ -55,6 +55,8 @@ impl NurbsSurface {
             }
             return Ok(sum);
         }
+        // No rule is exact; one of high degree needs few halvings.
+        let rules = self.space().degrees().map(|n| rule(n + 8));
         let tolerance = RATIONAL_VOLUME * self.size().powi(3);
         self.integrate_adaptively(cells, &rules, tolerance, &density, watcher)
     }
