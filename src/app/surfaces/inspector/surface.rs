@@ -121,13 +121,12 @@ fn shown(lab: &mut Lab, ui: &mut Ui, object: &Arc<Object>, surface: &SurfaceObje
         });
     });
     ui.horizontal(|ui| {
-        ui.label("Pieces between knots");
+        ui.label("Pieces between knots").on_hover_text("How fine the surface is drawn");
         let field = NumberField::new("Pieces between knots", display.density as f64).width(40.0);
         let field = field.drag(Drag::PerPixel(0.1)).check(piece_count).show(ui, ("density", object.id));
         commands::apply(lab, field.event, "Change fineness", |content, count| {
             with(content, |display| display.density = count.round() as usize)
         });
-        ui.label(RichText::new("of the drawing").weak());
     });
 }
 
