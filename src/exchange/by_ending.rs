@@ -29,6 +29,9 @@ pub const MESH_ENDING: &str = "obj";
 /// Largest SVG or mesh that is read, in bytes.
 const SVG_LIMIT: u64 = 256 << 20;
 
+/// A mesh with more faces is shown as it is: without its net, not refined.
+const FINE_MESH: usize = 5000;
+
 /// Why a file could not be read or written. Every message names the file.
 #[derive(Debug, Error)]
 pub enum ByEndingError {
@@ -163,7 +166,11 @@ pub fn read_mesh_watched(path: &Path, watcher: &dyn Watcher) -> Result<(String, 
     let stem =
         path.file_stem().map(|stem| stem.to_string_lossy().chars().filter(|c| !c.is_control()).collect());
     let name = stem.filter(|stem: &String| !stem.trim().is_empty()).unwrap_or_else(|| "Mesh".to_owned());
-    let mesh = MeshObject::from_cage(read.mesh, MeshDisplay::default());
+    let faces = read.mesh.topology().face_count();
+    // The net of a fine mesh hides what it is the net of, and such a mesh needs no refinement to be looked at.
+    let display = MeshDisplay { cage: faces <= FINE_MESH, ..MeshDisplay::default() };
+    let mesh = MeshObject::from_cage(read.mesh, display);
+    let mesh = mesh.and_then(|mesh| if faces <= FINE_MESH { Ok(mesh) } else { mesh.with_level(0) });
     Ok((name, mesh.map_err(|error| ByEndingError::Mesh { path: path.to_owned(), error })?))
 }
 

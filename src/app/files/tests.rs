@@ -207,7 +207,7 @@ fn a_job_that_is_given_up_hears_of_it_and_changes_nothing() {
         }
         tell.send(()).unwrap();
         Box::new(|_, lab| {
-            drop(lab.edit(Edit::RemoveObjects { objects: vec![lab.selection.object.unwrap()] }))
+            drop(lab.edit(Edit::RemoveObjects { objects: vec![lab.selection.object.unwrap()] }));
         })
     });
     files.job = None;
