@@ -18,6 +18,9 @@ use spline_lab::core::finite_element::{
     Coefficient, Discretisation, EllipticForm, Problem, Weight, WeightedSpace, WeightedSystem, solve_problem,
 };
 use spline_lab::core::progress::Unwatched;
+use spline_lab::document::{MembraneDisplay, MembranePreset, Region};
+use spline_lab::figure::elements::{field, solve};
+use spline_lab::figure::theme::Theme;
 
 fn main() {
     let load = |x: DVec2| (3.0 * x.x).sin() + x.y;
@@ -72,6 +75,44 @@ fn main() {
         };
         line("solve", "conjugate gradients with the diagonal, 1e-10, from zero", solve(None));
     }
+    as_in_the_window();
+}
+
+/// What one move of the hand costs in the window: the solution, its samples, colours and isolines, for a disc of 40 × 40 cells of
+/// degree 2 with a hole that moves.
+fn as_in_the_window() {
+    let problem = MembranePreset::Ring.membrane();
+    let display = MembraneDisplay::default();
+    let theme = Theme::light();
+    let mut step = 0;
+    let (mut unknowns, mut lines) = (0, 0);
+    let found = times(|| {
+        step += 1;
+        let moved = problem
+            .with(|setting| {
+                if let Region::Parts { parts, width } = &mut setting.region {
+                    let (low, high) = problem.bounding_box().unwrap();
+                    *width = (high - low).max_element() / 40.0;
+                    let last = parts.last_mut().unwrap();
+                    last.shape = last.shape.with_handle(0, DVec2::new(0.3 - 0.002 * f64::from(step), 0.1));
+                }
+            })
+            .unwrap();
+        let solved = solve(&moved, &Unwatched).unwrap();
+        lines = field(&solved, &display, &theme).len();
+        unknowns = solved.facts.unknowns;
+    });
+    let median = found[found.len() / 2];
+    println!(
+        "{{\"workload\": \"window-resolve p=2 40x40\", \"peer\": \"spline-lab\", \"n\": {unknowns}, \"median_s\": {median}, \
+         \"min_s\": {}, \"cpu_median_s\": {median}, \"cpu_min_s\": {}, \"reps\": {}, \"threads\": {}, \
+         \"how\": \"solution after a move, samples, colours, isolines: {lines} layers\", \"items_per_s\": {}}}",
+        found[0],
+        found[0],
+        found.len(),
+        rayon::current_num_threads(),
+        unknowns as f64 / median,
+    );
 }
 
 fn problem<'a>(domain: &'a Domain, form: EllipticForm<'a>) -> Problem<'a> {

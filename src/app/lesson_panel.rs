@@ -15,7 +15,7 @@ pub(crate) fn show_list(lab: &mut Lab, ui: &mut Ui) {
     let mut chosen = None;
     ScrollArea::vertical().id_salt("lessons").auto_shrink([false, false]).show(ui, |ui| {
         for (index, lesson) in lessons().iter().enumerate() {
-            let button = Button::selectable(open == Some(index), lesson.heading()).truncate();
+            let button = Button::selectable(open == Some(index), lesson.heading()).wrap();
             let response = ui.with_layout(Layout::top_down_justified(Align::LEFT), |ui| ui.add(button)).inner;
             if response.on_hover_text(format!("Open the lesson of section {}", lesson.section)).clicked() {
                 chosen = Some(index);

@@ -7,10 +7,17 @@ use crate::app::command_state::{is_on, is_possible};
 use crate::app::lab::Lab;
 use crate::app::workspace::{Room, Workspace};
 
+/// In narrower windows the tools stand closer.
+const ROOMY: f32 = 1150.0;
+
 /// Shows the tabs and the tools; what they do is pushed to `lab.commands`.
 pub(crate) fn show(lab: &mut Lab, workspace: &mut dyn Workspace, ui: &mut Ui) {
     ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().item_spacing.x = 4.0;
+        let is_narrow = ui.available_width() < ROOMY * lab.theme.text_scale as f32;
+        ui.spacing_mut().item_spacing.x = if is_narrow { 1.0 } else { 4.0 };
+        if is_narrow {
+            ui.spacing_mut().button_padding.x = 4.0;
+        }
         // One room needs no doors.
         if Room::ALL.len() > 1 {
             for room in Room::ALL {

@@ -51,7 +51,8 @@ pub fn run(file: Option<PathBuf>) -> eframe::Result {
         .with_inner_size([1280.0, 800.0])
         .with_min_inner_size([640.0, 420.0])
         .with_drag_and_drop(true);
-    let options = eframe::NativeOptions { viewport, ..Default::default() };
+    // Nothing here has colours that run so slowly that bands would be seen; without a GPU it would take a quarter of a frame.
+    let options = eframe::NativeOptions { viewport, dithering: false, ..Default::default() };
     let start = |cc: &eframe::CreationContext<'_>| -> Box<dyn eframe::App> {
         scene_view::offer_gpu(&cc.egui_ctx, cc.wgpu_render_state.as_ref());
         Box::new(LabApp::new(&cc.egui_ctx, file))
@@ -161,7 +162,7 @@ impl LabApp {
         let scale = lab.theme.text_scale as f32;
         let open = |lab: &Lab, name: &str| lab.view.panels.get(name).copied().unwrap_or(true);
         if open(lab, LEFT_PANEL) {
-            let size = files.panel_size(LEFT_PANEL, 184.0);
+            let size = files.panel_size(LEFT_PANEL, 214.0);
             let panel = Panel::left(LEFT_PANEL)
                 .default_size(size)
                 .size_range(170.0 * scale..=360.0 * scale)

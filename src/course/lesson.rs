@@ -169,6 +169,7 @@ pub fn text_parts(text: &str) -> Result<Vec<TextPart>, LessonError> {
 mod tests {
     use super::*;
     use crate::course::question::Answer;
+    use crate::figure::formula::layout;
 
     #[test]
     fn every_lesson_file_loads() {
@@ -184,7 +185,7 @@ mod tests {
     fn every_formula_of_every_lesson_can_be_typeset() {
         for lesson in lessons() {
             for source in lesson.formulas() {
-                if let Err(error) = crate::figure::formula::layout(&source, 12.0) {
+                if let Err(error) = layout(&source, 12.0) {
                     panic!("{}: {source}: {error}", lesson.section);
                 }
             }
@@ -215,6 +216,14 @@ mod tests {
             let words: usize = lesson.paragraphs.iter().map(|text| text.split_whitespace().count()).sum();
             assert!((80..=260).contains(&words), "{}: {words} words", lesson.section);
             assert_eq!(lesson.things_to_try.len(), 3, "{}", lesson.section);
+        }
+    }
+
+    #[test]
+    fn display_formulas_fit_beside_the_picture() {
+        for lesson in lessons().iter().filter(|lesson| !lesson.display_formula.is_empty()) {
+            let width = layout(&lesson.display_formula, 14.0).unwrap().width;
+            assert!(width < 270.0, "{}: {width} pt", lesson.section);
         }
     }
 

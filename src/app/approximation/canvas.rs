@@ -133,12 +133,15 @@ impl Canvas {
         self.knot = self.knot.filter(|&knot| still_there(knot));
     }
 
-    /// What the status line says.
-    pub(super) fn status(&self, busy: bool) -> String {
+    /// What the status line says: where the pointer is, or what hands can do.
+    pub(super) fn status(&self, busy: bool, lab: &Lab) -> String {
         if busy {
             return "computing…".to_owned();
         }
-        let Some((x, y)) = self.pointer else { return String::new() };
+        let Some((x, y)) = self.pointer else {
+            let can_drag = lab.approximation().is_some_and(|data| request(data, lab).is_none());
+            return if can_drag { HANDS.to_owned() } else { String::new() };
+        };
         format!("x = {}, y = {}", error_text(x), error_text(y))
     }
 
@@ -305,12 +308,12 @@ impl Canvas {
             let marquee = screen_box(low, high, rect);
             painter.rect(marquee, 0.0, ink.gamma_multiply(0.12), Stroke::new(1.0, ink), StrokeKind::Inside);
         }
-        if let Some(hint) = hint(approximation, lab) {
+        if let Some(request) = request(approximation, lab) {
             let middle = 0.5 * (layout.main.low.x + layout.main.high.x);
             let at = screen_from_page(DVec2::new(middle, layout.main.low.y + 10.0), rect);
             let size = 13.0 * lab.theme.text_scale as f32;
             let (ink, ground) = (lab.theme.muted_text, lab.theme.background);
-            paint_note(&painter, at, Align2::CENTER_BOTTOM, hint, size, ink, ground);
+            paint_note(&painter, at, Align2::CENTER_BOTTOM, request, size, ink, ground);
         }
     }
 
@@ -353,18 +356,18 @@ fn add_point(page: DVec2, layout: &Layout, lab: &mut Lab, snap: bool) {
     }
 }
 
-fn hint(approximation: &Approximation, lab: &Lab) -> Option<&'static str> {
+/// What hands can do.
+const HANDS: &str = "Drag data and knots.  Double-click a line of knots to insert one.  The wheel zooms.";
+
+/// What is to be done next, if there is little to see.
+fn request(approximation: &Approximation, lab: &Lab) -> Option<&'static str> {
     if lab.tool == Tool::AddPoint {
         return Some("Click where data are to be; Ctrl snaps to the grid, Escape ends.");
     }
     if approximation.is_empty() && approximation.function().is_none() {
         return Some("Press A and click data, import or paste a table, or type a function on the right.");
     }
-    if approximation.methods().is_empty() {
-        return Some("Add a method on the right.");
-    }
-    let untouched = lab.history.steps().0 <= 1 && lab.path.is_none() && lab.lesson.is_none();
-    untouched.then_some("Drag data and knots.  Double-click a line of knots to insert one.  The wheel zooms.")
+    approximation.methods().is_empty().then_some("Add a method on the right.")
 }
 
 /// The place of the page under a place of the screen.

@@ -62,8 +62,8 @@ impl Workspace for ApproximationRoom {
         true
     }
 
-    fn status(&self, _lab: &Lab) -> String {
-        self.canvas.status(self.desk.is_busy())
+    fn status(&self, lab: &Lab) -> String {
+        self.canvas.status(self.desk.is_busy(), lab)
     }
 
     fn handles(&self, lab: &Lab) -> Vec<(String, egui::Pos2)> {

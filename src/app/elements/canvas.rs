@@ -93,7 +93,10 @@ impl Canvas {
 
     /// A camera that has never looked at the selected problem is fitted.
     fn check_camera(&mut self, subject: Option<&Subject>, lab: &mut Lab) {
-        let Some(subject) = subject else { return };
+        let Some(subject) = subject else {
+            self.checked = None;
+            return;
+        };
         let now = Some((lab.shelf.opened, subject.object));
         let scale = lab.view.cameras.get(CAMERA).map_or(0.0, |camera| camera.scale);
         if self.checked == now && scale.is_finite() && scale > 0.0 {
@@ -106,8 +109,8 @@ impl Canvas {
             page.cmpge(DVec2::ZERO).all() && page.cmple(lab.canvas_size).all()
         };
         let suits = subject.membrane.bounding_box().is_some_and(|(low, high)| {
-            let part = (high - low).max_element() * scale / lab.canvas_size.max_element();
-            sees(low) && sees(high) && part > 0.15
+            let part = (high - low).max_element() * scale / lab.canvas_size.min_element();
+            sees(low) && sees(high) && part > 0.5
         });
         if !suits {
             self.fit(lab);

@@ -325,7 +325,11 @@ fn errors(room: &mut Elements, subject: &Subject, lab: &mut Lab, ui: &mut Ui) {
             }
         });
         ui.ctx().request_repaint_after(std::time::Duration::from_millis(60));
-    } else if ui.button("Measure errors").on_hover_text("Solve with h, h/2, h/4, h/8").clicked() {
+    } else if ui
+        .button("Measure errors")
+        .on_hover_text("Solve with h, h/2, h/4, h/8 and the load that belongs to the known solution")
+        .clicked()
+    {
         room.study.start(subject.object, &subject.membrane, lab.at_once, ui.ctx());
     }
     match room.study.found(subject.object, &subject.membrane) {

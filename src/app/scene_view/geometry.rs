@@ -69,6 +69,13 @@ impl Geometry {
         self.runs.iter().map(|run| run.quads.end).max().unwrap_or(0)
     }
 
+    /// Where the vertices of surfaces are.
+    pub(super) fn facet_places(&self) -> Vec<Vec3> {
+        let vertices = self.facets.as_chunks::<{ FACET_BYTES as usize }>().0;
+        let part = |vertex: &[u8], k: usize| f32::from_ne_bytes(vertex.as_chunks().0[k]);
+        vertices.iter().map(|vertex| Vec3::from_array([0, 1, 2].map(|k| part(vertex, k)))).collect()
+    }
+
     fn add_surface(&mut self, surface: &Triangles, origin: DVec3, translucent: &mut Vec<u32>) {
         let count = |bytes: &[u8]| (bytes.len() as u64 / FACET_BYTES) as u32;
         let first = count(&self.facets);

@@ -8,15 +8,22 @@
 //! | `gizmo.rs` | the little axes in the corner, and the tools that turn the eye |
 //! | `geometry.rs` | a scene as vertices for the GPU |
 //! | `shader.wgsl` | triangles, strokes and marks on the GPU; the light is that of [`crate::figure::scene::Light`] |
-//! | `gpu.rs` | pipelines, buffers and the texture that egui shows |
+//! | `gpu.rs` | draws a scene, if anything about it is new |
+//! | `pipelines.rs`, `buffers.rs`, `target.rs` | the programs of the GPU, the scene in its memory, the texture that egui shows |
+//! | `pace.rs`, `coarse.rs` | quick pictures of large scenes that move, where a processor plays GPU |
 //! | `stand_in.rs` | the same by the processor, beside the window's thread |
 
+mod buffers;
+mod coarse;
 mod geometry;
 mod gizmo;
 mod gpu;
 mod grip;
 mod hands;
+mod pace;
+mod pipelines;
 mod stand_in;
+mod target;
 #[cfg(test)]
 mod tests;
 
@@ -77,7 +84,6 @@ impl SceneView {
         }
         let ground = scene.background.unwrap_or(theme.background);
         let painter = ui.painter_at(rect);
-        painter.rect_filled(rect, 0.0, color32(ground));
         let order = gpu::Order {
             scene,
             version,
@@ -92,6 +98,7 @@ impl SceneView {
             painter.image(texture, pixels, whole, Color32::WHITE);
             paint_picture(&labels(scene, view), &upright(view.size), rect, &painter);
         } else {
+            painter.rect_filled(rect, 0.0, color32(ground));
             self.stand_in.paint(&order, rect, ui);
         }
     }

@@ -7,7 +7,8 @@ use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, DVec3};
 
 use super::geometry::{Geometry, Kind};
-use super::gpu::{Gpu, Order};
+use super::gpu::{Counts, Gpu, Order};
+use super::pace::Quality;
 use super::*;
 use crate::document::EyeState;
 use crate::figure::picture::{Color, MarkerShape, Stroke};
@@ -391,11 +392,28 @@ const WHITE: Color = Color::hex(0xFF_FF_FF);
 
 /// The pixels at 1 pixel per pt over white.
 fn drawn(gpu: &mut Gpu, scene: &Scene, version: u64, view: &EyeView) -> Vec<[u8; 4]> {
+    drawn_as(gpu, scene, version, view, Quality::Fine)
+}
+
+fn drawn_as(gpu: &mut Gpu, scene: &Scene, version: u64, view: &EyeView, quality: Quality) -> Vec<[u8; 4]> {
     let light = Theme::light().light;
     let bounds = scene.bounding_box();
     let order = Order { scene, version, bounds, view, light: &light, ground: WHITE, pixels_per_point: 1.0 };
-    gpu.draw(&order, [view.size.x as u32, view.size.y as u32]).unwrap();
+    gpu.draw(&order, [view.size.x as u32, view.size.y as u32], quality).unwrap();
     gpu.pixels().unwrap()
+}
+
+#[test]
+fn quick_pictures_look_like_fine_ones() {
+    let Some(mut gpu) = gpu() else { return };
+    let view = EyeView { eye: Eye::default(), size: DVec2::new(320.0, 240.0) };
+    let scene = scene(vec![SceneItem::Triangles(torus(200, 400))]);
+    let fine = drawn(&mut gpu, &scene, 1, &view);
+    let quick = drawn_as(&mut gpu, &scene, 1, &view, Quality::Quick);
+    assert_eq!(gpu.counts, Counts { fillings: 1, drawings: 2 }, "the vertices are the same");
+    let differ = |(a, b): &(&[u8; 4], &[u8; 4])| (0..3).any(|k| a[k].abs_diff(b[k]) > 24);
+    let share = fine.iter().zip(&quick).filter(differ).count() as f64 / fine.len() as f64;
+    assert!(share < 0.05 && fine != quick, "{share} of the pixels differ");
 }
 
 #[test]
