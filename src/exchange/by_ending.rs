@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 use glam::DVec2;
 use thiserror::Error;
 
+use crate::core::progress::{Unwatched, Watcher};
 use crate::document::{
     self, Content, Document, EXTENSION, Edit, EditError, FileError, MeshDisplay, MeshObject, Saved, View,
 };
@@ -27,6 +28,9 @@ pub const MESH_ENDING: &str = "obj";
 
 /// Largest SVG or mesh that is read, in bytes.
 const SVG_LIMIT: u64 = 256 << 20;
+
+/// A mesh with more faces is shown as it is: without its net, not refined.
+const FINE_MESH: usize = 5000;
 
 /// Why a file could not be read or written. Every message names the file.
 #[derive(Debug, Error)]
@@ -140,6 +144,15 @@ pub fn is_mesh(path: &Path) -> bool {
 ///
 /// [`ByEndingError`] with the file and the line.
 pub fn read_mesh(path: &Path) -> Result<(String, MeshObject), ByEndingError> {
+    read_mesh_watched(path, &Unwatched)
+}
+
+/// As [`read_mesh`] with a watcher.
+///
+/// # Errors
+///
+/// As [`read_mesh`]; stopped, an OBJ error that says so.
+pub fn read_mesh_watched(path: &Path, watcher: &dyn Watcher) -> Result<(String, MeshObject), ByEndingError> {
     let said = |error| ByEndingError::Io { path: path.to_owned(), error };
     let file = File::open(path).map_err(said)?;
     let bytes = file.metadata().map_err(said)?.len();
@@ -148,11 +161,16 @@ pub fn read_mesh(path: &Path) -> Result<(String, MeshObject), ByEndingError> {
     }
     let mut content = Vec::new();
     file.take(SVG_LIMIT).read_to_end(&mut content).map_err(said)?;
-    let read = obj::read(&content).map_err(|error| ByEndingError::Obj { path: path.to_owned(), error })?;
+    let read = obj::read_watched(&content, watcher)
+        .map_err(|error| ByEndingError::Obj { path: path.to_owned(), error })?;
     let stem =
         path.file_stem().map(|stem| stem.to_string_lossy().chars().filter(|c| !c.is_control()).collect());
     let name = stem.filter(|stem: &String| !stem.trim().is_empty()).unwrap_or_else(|| "Mesh".to_owned());
-    let mesh = MeshObject::from_cage(read.mesh, MeshDisplay::default());
+    let faces = read.mesh.topology().face_count();
+    // The net of a fine mesh hides what it is the net of, and such a mesh needs no refinement to be looked at.
+    let display = MeshDisplay { cage: faces <= FINE_MESH, ..MeshDisplay::default() };
+    let mesh = MeshObject::from_cage(read.mesh, display);
+    let mesh = mesh.and_then(|mesh| if faces <= FINE_MESH { Ok(mesh) } else { mesh.with_level(0) });
     Ok((name, mesh.map_err(|error| ByEndingError::Mesh { path: path.to_owned(), error })?))
 }
 

@@ -9,6 +9,7 @@ use std::fmt::Write as _;
 use glam::DVec3;
 use thiserror::Error;
 
+use crate::core::progress::{Stopped, Unwatched, Watcher};
 use crate::core::surface::{MeshError, PolygonMesh};
 
 /// Most vertices or faces that are read.
@@ -16,6 +17,9 @@ pub const MAX_ELEMENTS: usize = 2_000_000;
 
 /// Most corners of all faces together.
 pub const MAX_CORNERS: usize = 8_000_000;
+
+/// The watcher is asked after so many lines.
+const WATCHED: usize = 4096;
 
 /// Longest piece of a line that an error repeats.
 const SHOWN: usize = 40;
@@ -83,6 +87,9 @@ pub enum ObjError {
         /// What is missing.
         what: &'static str,
     },
+    /// A watcher has stopped the reading.
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
     /// The faces do not make a mesh.
     #[error("{}{fault}", .line.map(|line| format!("line {line}: ")).unwrap_or_default())]
     Mesh {
@@ -134,6 +141,16 @@ const IGNORED: [&str; 22] = [
 ///
 /// The first fault, with its line; `Mesh` with the first fault of the connectivity.
 pub fn read(bytes: &[u8]) -> Result<ObjMesh, ObjError> {
+    read_watched(bytes, &Unwatched)
+}
+
+/// As [`read`] with a watcher.
+///
+/// # Errors
+///
+/// As [`read`]; `Stopped`.
+pub fn read_watched(bytes: &[u8], watcher: &dyn Watcher) -> Result<ObjMesh, ObjError> {
+    watcher.check(0.0)?;
     let text = std::str::from_utf8(bytes).map_err(|error| {
         let at = error.valid_up_to();
         ObjError::NotText {
@@ -149,6 +166,11 @@ pub fn read(bytes: &[u8]) -> Result<ObjMesh, ObjError> {
     let mut lines = text.lines().enumerate();
     while let Some((index, first)) = lines.next() {
         let line = index + 1;
+        if line.is_multiple_of(WATCHED) {
+            // The connectivity takes about as long as the text.
+            let here = first.as_ptr() as usize - text.as_ptr() as usize;
+            watcher.check(0.5 * here as f64 / text.len() as f64)?;
+        }
         let first = without_comment(first);
         // A backslash at the end joins the next line.
         match first.strip_suffix('\\') {
@@ -173,6 +195,7 @@ pub fn read(bytes: &[u8]) -> Result<ObjMesh, ObjError> {
             return Err(ObjError::Nothing { what });
         }
     }
+    watcher.check(0.5)?;
     let mesh = PolygonMesh::new(positions, &faces).map_err(|fault| {
         let face = match &fault {
             MeshError::IndexOutOfRange { face, .. }
@@ -189,19 +212,35 @@ pub fn read(bytes: &[u8]) -> Result<ObjMesh, ObjError> {
 
 /// Writes a mesh; numbers are the shortest that read back as the same bits. Creases have no place in OBJ.
 pub fn write(mesh: &PolygonMesh) -> String {
+    // Nobody stops it.
+    write_watched(mesh, &Unwatched).unwrap_or_default()
+}
+
+/// As [`write`] with a watcher.
+///
+/// # Errors
+///
+/// [`Stopped`].
+pub fn write_watched(mesh: &PolygonMesh, watcher: &dyn Watcher) -> Result<String, Stopped> {
     let mut text = String::new();
-    for position in mesh.positions() {
+    let count = (mesh.positions().len() + mesh.topology().face_count()) as f64;
+    let watch = |done: usize| {
+        if done.is_multiple_of(WATCHED) { watcher.check(done as f64 / count) } else { Ok(()) }
+    };
+    for (done, position) in mesh.positions().iter().enumerate() {
+        watch(done)?;
         // Writing to a string cannot fail.
         let _ = writeln!(text, "v {} {} {}", position.x, position.y, position.z);
     }
-    for face in mesh.topology().faces() {
+    for (done, face) in mesh.topology().faces().enumerate() {
+        watch(mesh.positions().len() + done)?;
         text.push('f');
         for vertex in face {
             let _ = write!(text, " {}", vertex + 1);
         }
         text.push('\n');
     }
-    text
+    Ok(text)
 }
 
 fn without_comment(line: &str) -> &str {

@@ -31,6 +31,14 @@ impl Color {
     pub fn with_opacity(self, opacity: f64) -> Self {
         Self { a: (opacity.clamp(0.0, 1.0) * 255.0).round() as u8, ..self }
     }
+
+    /// The colour on the way from this one to `other`, `share` between 0 and 1 of it; as opaque as this one.
+    #[must_use]
+    pub fn mixed(self, other: Self, share: f64) -> Self {
+        let share = share.clamp(0.0, 1.0);
+        let mix = |from: u8, to: u8| (f64::from(from) * (1.0 - share) + f64::from(to) * share).round() as u8;
+        Self { r: mix(self.r, other.r), g: mix(self.g, other.g), b: mix(self.b, other.b), a: self.a }
+    }
 }
 
 /// How a line is drawn.

@@ -162,6 +162,11 @@ impl Theme {
         self.palette[k % self.palette.len()]
     }
 
+    /// The colour of surface `k`: that of curve `k`, nearer to the ground so that lines within the surface stand out.
+    pub fn surface_color(&self, k: usize) -> Color {
+        self.basis_color(k).mixed(self.background, 0.3)
+    }
+
     /// A solid line `width` pt wide before [`Self::stroke_scale`].
     pub fn stroke(&self, color: Color, width: f64) -> Stroke {
         Stroke::solid(color, width * self.stroke_scale)

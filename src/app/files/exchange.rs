@@ -1,16 +1,17 @@
 //! Files of other programs: meshes and tables in and out, figures out.
 
 use std::path::{Path, PathBuf};
-use std::sync::mpsc;
 
-use eframe::egui::Ui;
+use eframe::egui::Context;
 
 use crate::app::approximation::take_table;
 use crate::app::command::Command;
+use crate::app::files::job::Finish;
 use crate::app::files::question::Problem;
 use crate::app::files::{Files, name_of, view_to_save};
 use crate::app::lab::Lab;
-use crate::document::{Content, Edit};
+use crate::core::progress::{Part, Watcher};
+use crate::document::{Content, Edit, MeshObject, Object};
 use crate::exchange::by_ending::{self, FigureFormat};
 use crate::exchange::csv::{CsvError, read_csv_file, write_csv};
 use crate::exchange::obj;
@@ -26,43 +27,33 @@ pub(super) const TABLES: &[&str] = &["csv", "tsv", "txt", "dat"];
 
 impl Files {
     /// Adds the mesh of a file to the document, as one step.
-    pub(super) fn import_mesh(&mut self, path: &Path, lab: &mut Lab) {
-        match by_ending::read_mesh(path) {
-            Ok((name, mesh)) => {
-                let is_first = surfaces::bounding_box(lab.history.document()).is_none();
-                let made = lab.edit(Edit::AddObject { name, content: Content::Mesh(mesh) });
-                if let Some(&id) = made.as_ref().and_then(|made| made.created.first()) {
-                    lab.select(id);
-                    if is_first {
-                        lab.commands.push(Command::Fit);
-                    }
+    pub(super) fn import_mesh(&mut self, path: PathBuf, lab: &mut Lab, ctx: &Context) {
+        self.start_job(format!("Reading {}", name_of(&path)), lab, ctx, move |watcher| {
+            let read = by_ending::read_mesh_watched(&path, watcher);
+            Box::new(move |files, lab| match read {
+                Ok((name, mesh)) => add_mesh(name, mesh, lab),
+                Err(error) => {
+                    files.problems.push(Problem::new("This mesh cannot be imported", error.to_string()));
                 }
-            }
-            Err(error) => {
-                self.problems.push(Problem::new("This mesh cannot be imported", error.to_string()));
-            }
-        }
+            })
+        });
     }
 
     /// Writes the selected mesh at the level that is shown.
-    pub(super) fn export_mesh(&mut self, path: &Path, lab: &mut Lab) {
+    pub(super) fn export_mesh(&mut self, path: PathBuf, lab: &mut Lab, ctx: &Context) {
         let object = lab.selection.object.and_then(|id| lab.history.document().object(id));
-        let Some(mesh) = object.and_then(|object| object.mesh()) else {
+        let Some(object) = object.filter(|object| object.mesh().is_some()).cloned() else {
             lab.problem("Select a mesh first.");
             return;
         };
-        let written = mesh.steps().map_err(|error| error.to_string()).and_then(|steps| {
-            let refined = steps.last().map_or(mesh.cage(), |step| &step.mesh);
-            let text = obj::write(refined);
-            by_ending::write_file(path, text.as_bytes()).map_err(|error| error.to_string())
+        self.start_job(format!("Writing {}", name_of(&path)), lab, ctx, move |watcher| {
+            let written = write_mesh(&object, &path, watcher);
+            said(written, "Mesh written to", "The mesh was not written", path)
         });
-        match written {
-            Ok(()) => lab.done(format!("Mesh written to {}", name_of(path))),
-            Err(error) => self.problems.push(Problem::new("The mesh was not written", error)),
-        }
     }
 
-    pub(super) fn export(&mut self, path: PathBuf, lab: &mut Lab) {
+    /// Writes a figure of what the room shows.
+    pub(super) fn export(&mut self, path: PathBuf, lab: &mut Lab, ctx: &Context) {
         let format = match FigureFormat::of(&path) {
             Ok(format) => format,
             Err(error) => {
@@ -73,41 +64,17 @@ impl Files {
         let (document, view, theme) = (lab.history.document().clone(), view_to_save(lab), lab.theme.clone());
         let camera = lab.view.room_camera();
         let viewport = Viewport { center: camera.center, scale: camera.scale, size: lab.canvas_size };
-        let (send, receive) = mpsc::channel();
-        let write = move || {
-            let (picture, viewport) = match page(&document, &view, &theme, &viewport) {
-                Ok(page) => page,
-                Err(error) => {
-                    let _ = send.send(Err(error.to_string()));
-                    return;
-                }
-            };
-            let written = by_ending::figure(format, &picture, &viewport, &document, &view, PNG_SCALE)
-                .and_then(|bytes| by_ending::write_file(&path, &bytes));
-            // Nobody listens any more when the window has been closed meanwhile.
-            let _ = send.send(written.map(|()| path).map_err(|error| error.to_string()));
-        };
-        match std::thread::Builder::new().name("figure".to_owned()).spawn(write) {
-            Ok(_) => self.exporting = Some(receive),
-            Err(error) => self.problems.push(Problem::new("The figure was not written", error.to_string())),
-        }
-    }
-
-    pub(super) fn finish_export(&mut self, lab: &mut Lab, ui: &Ui) {
-        let Some(exporting) = &self.exporting else { return };
-        match exporting.try_recv() {
-            Ok(Ok(path)) => lab.done(format!("Figure written to {}", name_of(&path))),
-            Ok(Err(error)) => self.problems.push(Problem::new("The figure was not written", error)),
-            Err(mpsc::TryRecvError::Empty) => {
-                ui.ctx().request_repaint_after(std::time::Duration::from_millis(50));
-                return;
-            }
-            Err(mpsc::TryRecvError::Disconnected) => {
-                self.problems
-                    .push(Problem::new("The figure was not written", "The writer stopped.".to_owned()));
-            }
-        }
-        self.exporting = None;
+        self.start_job(format!("Writing {}", name_of(&path)), lab, ctx, move |watcher| {
+            let written = page(&document, &view, &theme, &viewport).map_err(|error| error.to_string());
+            let written = written.and_then(|(picture, viewport)| {
+                watcher.check(0.5).map_err(|stopped| stopped.to_string())?;
+                let bytes = by_ending::figure(format, &picture, &viewport, &document, &view, PNG_SCALE);
+                let bytes = bytes.map_err(|error| error.to_string())?;
+                watcher.check(0.9).map_err(|stopped| stopped.to_string())?;
+                by_ending::write_file(&path, &bytes).map_err(|error| error.to_string())
+            });
+            said(written, "Figure written to", "The figure was not written", path)
+        });
     }
 
     pub(super) fn import_data(&mut self, path: &Path, lab: &mut Lab) {
@@ -133,6 +100,36 @@ impl Files {
             }
         }
     }
+}
+
+/// Adds a mesh to the document and selects it.
+fn add_mesh(name: String, mesh: MeshObject, lab: &mut Lab) {
+    let is_first = surfaces::bounding_box(lab.history.document()).is_none();
+    let made = lab.edit(Edit::AddObject { name, content: Content::Mesh(mesh) });
+    if let Some(&id) = made.as_ref().and_then(|made| made.created.first()) {
+        lab.select(id);
+        if is_first {
+            lab.commands.push(Command::Fit);
+        }
+    }
+}
+
+fn write_mesh(object: &Object, path: &Path, watcher: &dyn Watcher) -> Result<(), String> {
+    let Some(mesh) = object.mesh() else { return Ok(()) };
+    let steps = mesh.steps_watched(&Part { whole: watcher, from: 0.0, to: 0.4 });
+    let steps = steps.map_err(|error| error.to_string())?;
+    let refined = steps.last().map_or(mesh.cage(), |step| &step.mesh);
+    let text = obj::write_watched(refined, &Part { whole: watcher, from: 0.4, to: 0.9 });
+    let text = text.map_err(|stopped| stopped.to_string())?;
+    by_ending::write_file(path, text.as_bytes()).map_err(|error| error.to_string())
+}
+
+/// Tells that a file was written, or why not.
+fn said(written: Result<(), String>, done: &'static str, problem: &'static str, path: PathBuf) -> Finish {
+    Box::new(move |files, lab| match written {
+        Ok(()) => lab.done(format!("{done} {}", name_of(&path))),
+        Err(error) => files.problems.push(Problem::new(problem, error)),
+    })
 }
 
 /// Whether `path` has the ending of a table.

@@ -4,12 +4,12 @@
 //! the question whether to save otherwise. Files are read before anything is asked, so that a damaged one changes nothing.
 
 mod exchange;
+mod job;
 mod keeper;
 mod lessons;
 mod question;
 
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::Receiver;
 
 use eframe::egui::{Context, Ui, ViewportCommand};
 
@@ -24,6 +24,7 @@ use crate::document::{self, Document, EXTENSION, Recovered, Saved, View};
 use crate::exchange::by_ending::{self, FIGURE_ENDINGS};
 use crate::figure::theme::Theme;
 
+use job::Job;
 use keeper::Keeper;
 use question::{Problem, Question, Reply};
 
@@ -59,7 +60,7 @@ pub(crate) struct Files {
     question: Option<Question>,
     problems: Vec<Problem>,
     recovered: Vec<Recovered>,
-    exporting: Option<Receiver<Result<PathBuf, String>>>,
+    job: Option<Job>,
     last_folder: Option<PathBuf>,
     desktop: bool,
     title: String,
@@ -87,7 +88,7 @@ impl Files {
             question: (!recovered.is_empty()).then_some(Question::Recovery),
             problems,
             recovered,
-            exporting: None,
+            job: None,
             last_folder: None,
             desktop: !cfg!(test) && file_dialog::has_desktop(),
             title: String::new(),
@@ -180,7 +181,7 @@ impl Files {
             self.problems.remove(0);
         }
         self.take_dropped_file(lab, ui);
-        self.finish_export(lab, ui);
+        self.watch_job(lab, ui.ctx());
         self.watch_closing(lab, ui);
         self.name_window(lab, ui);
         lab.theme.name.clone_into(&mut self.preferences.theme);
@@ -234,9 +235,9 @@ impl Files {
         let Answer::Path(path) = answer else { return };
         self.last_folder = path.parent().map(Path::to_owned);
         match wanted {
-            Wanted::Open | Wanted::Mesh => self.open(&path, lab),
-            Wanted::MeshOut => self.export_mesh(&path, lab),
-            Wanted::Figure => self.export(path, lab),
+            Wanted::Open | Wanted::Mesh => self.open(&path, lab, ui.ctx()),
+            Wanted::MeshOut => self.export_mesh(path, lab, ui.ctx()),
+            Wanted::Figure => self.export(path, lab, ui.ctx()),
             Wanted::Data => self.import_data(&path, lab),
             Wanted::DataCopy => self.export_data(&path, lab),
             Wanted::Save(then) => {
@@ -258,7 +259,7 @@ impl Files {
         let Some(reply) = question.show(lab, &self.recovered, ui) else { return };
         let question = self.question.take();
         match (reply, question) {
-            (Reply::Yes, Some(Question::Open(path))) => self.open(&path, lab),
+            (Reply::Yes, Some(Question::Open(path))) => self.open(&path, lab, ui.ctx()),
             (Reply::Yes, Some(Question::Unsaved(then))) => match lab.path.clone() {
                 Some(path) => {
                     if self.save(&path, lab) {
@@ -348,9 +349,9 @@ impl Files {
         }
     }
 
-    fn open(&mut self, path: &Path, lab: &mut Lab) {
+    fn open(&mut self, path: &Path, lab: &mut Lab, ctx: &Context) {
         if by_ending::is_mesh(path) {
-            self.import_mesh(path, lab);
+            self.import_mesh(path.to_owned(), lab, ctx);
             return;
         }
         if let Some(then) = self.read(path) {
@@ -385,7 +386,7 @@ impl Files {
             if exchange::is_table(&path) {
                 self.import_data(&path, lab);
             } else {
-                self.open(&path, lab);
+                self.open(&path, lab, ui.ctx());
             }
         }
     }

@@ -156,22 +156,64 @@ fn a_figure_opens_again_as_the_document_it_shows() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("figure.svg");
     let mut window = window(Directories::none());
+    window.state_mut().lab.at_once = true;
     let before = shown(&window).clone();
     command(&mut window, Command::ExportFigure);
     answer_with(&mut window, &path);
-    for _ in 0..200 {
-        if path.exists() && window.state().files.exporting.is_none() {
-            break;
-        }
-        std::thread::sleep(std::time::Duration::from_millis(20));
-        window.step();
-    }
     assert!(path.exists(), "no figure was written: {:?}", window.state().files.problems);
     command(&mut window, Command::New);
     command(&mut window, Command::Open);
     answer_with(&mut window, &path);
     assert_eq!(shown(&window), &before, "the document in the figure");
     assert_eq!(window.state().lab.path, None, "saving must not write over the figure");
+}
+
+#[test]
+fn a_mesh_is_exported_and_imported_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("cube.obj");
+    let mut window = window(Directories::none());
+    let lab = &mut window.state_mut().lab;
+    lab.at_once = true;
+    let cube = crate::core::surface::mesh_shapes::cube();
+    let mesh = document::MeshObject::from_cage(cube, document::MeshDisplay::default()).unwrap();
+    let content = document::Content::Mesh(mesh.with_level(2).unwrap());
+    let made = lab.edit(Edit::AddObject { name: "Cube".into(), content }).unwrap();
+    lab.select(made.created[0]);
+    command(&mut window, Command::ExportMesh);
+    answer_with(&mut window, &path);
+    command(&mut window, Command::ImportMesh);
+    answer_with(&mut window, &path);
+    let objects = shown(&window).objects();
+    let read = objects.last().unwrap().mesh().unwrap();
+    let refined = objects[objects.len() - 2].mesh().unwrap().steps().unwrap().pop().unwrap().mesh;
+    assert_eq!(read.cage().positions(), refined.positions(), "the vertices of level 2");
+    fs::write(&path, "v 0 0 0\nv 1 0\n").unwrap();
+    command(&mut window, Command::ImportMesh);
+    answer_with(&mut window, &path);
+    assert!(window.query_by_label_contains("line 2").is_some(), "a damaged file is named with its line");
+}
+
+#[test]
+fn a_job_that_is_given_up_hears_of_it_and_changes_nothing() {
+    let mut window = window(Directories::none());
+    let before = shown(&window).clone();
+    let (tell, heard) = std::sync::mpsc::channel();
+    let ctx = window.ctx.clone();
+    let Desk { files, lab } = window.state_mut();
+    files.start_job("Reading".into(), lab, &ctx, move |watcher| {
+        while watcher.hear(0.5) {
+            std::thread::yield_now();
+        }
+        tell.send(()).unwrap();
+        Box::new(|_, lab| {
+            drop(lab.edit(Edit::RemoveObjects { objects: vec![lab.selection.object.unwrap()] }));
+        })
+    });
+    files.job = None;
+    heard.recv().expect("the work ended because it was told to");
+    steps(&mut window);
+    assert_eq!(shown(&window), &before, "nothing was changed");
 }
 
 #[test]

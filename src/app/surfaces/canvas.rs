@@ -186,10 +186,13 @@ impl Canvas {
 
     /// Brings all objects into the canvas.
     fn fit(&self, lab: &mut Lab) {
-        if let (Some((low, high)), Some(rect)) = (bounding_box(lab.history.document()), self.rect) {
+        let document = lab.history.document();
+        if let Some(rect) = self.rect.filter(|_| bounding_box(document).is_some()) {
             let size = view_through(eye_of(lab), rect).size;
             let margin = FIT_MARGIN.min(0.12 * size.min_element());
-            lab.view.eye = *eye_of(lab).fitted(low, high, size, margin).state();
+            let visible = document.objects().iter().filter(|object| object.visible);
+            let points = visible.flat_map(|object| control_points(object)).copied();
+            lab.view.eye = *eye_of(lab).fitted_to(points, size, margin).state();
         }
     }
 

@@ -10,6 +10,7 @@
 //! | `target.rs` | what lies under the pointer |
 //! | `commands.rs` | commands that change the selected object |
 //! | `shape_store.rs` | shapes of the objects, large ones computed beside the window's thread |
+//! | `measures.rs` | area and volume, computed beside the window's thread |
 //! | `start.rs` | shapes to start with |
 //! | `stencil.rs` | the weights of a vertex of a refined mesh |
 //! | `inspector/` | numbers and choices |
@@ -20,6 +21,7 @@ mod context_menu;
 mod gesture;
 mod inspector;
 mod marks;
+mod measures;
 mod overlay;
 mod shape_store;
 mod start;
@@ -38,6 +40,7 @@ use crate::figure::composition::short_number;
 use crate::figure::scene::Eye;
 
 use canvas::Canvas;
+use measures::Measures;
 
 /// What is selected of a mesh beside its vertices.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -55,6 +58,7 @@ pub(super) enum Picked {
 #[derive(Debug, Default)]
 pub(crate) struct Surfaces {
     canvas: Canvas,
+    measures: Measures,
 }
 
 impl Workspace for Surfaces {
@@ -76,7 +80,6 @@ impl Workspace for Surfaces {
         if is_mesh {
             button("Smooth", Command::ToggleSmooth, lab, ui);
             button("Limits", Command::ToggleLimits, lab, ui);
-            button("Valences", Command::ToggleValences, lab, ui);
         } else {
             button("Normals", Command::ToggleNormals, lab, ui);
         }
@@ -88,7 +91,7 @@ impl Workspace for Surfaces {
     }
 
     fn inspector(&mut self, lab: &mut Lab, ui: &mut Ui) {
-        inspector::show(lab, &mut self.canvas, ui);
+        inspector::show(lab, &mut self.canvas, &mut self.measures, ui);
     }
 
     fn canvas(&mut self, lab: &mut Lab, ui: &mut Ui) {
@@ -101,6 +104,9 @@ impl Workspace for Surfaces {
 
     fn status(&self, lab: &Lab) -> String {
         let faces = self.canvas.triangle_count();
+        if faces == 0 {
+            return String::new();
+        }
         let distance = short_number(lab.view.eye.distance);
         format!("{faces} triangles, seen from {distance}")
     }

@@ -14,6 +14,9 @@ use crate::figure::picture::{Color, Picture, Viewport};
 use crate::figure::scene::EyeView;
 use crate::figure::surfaces::{control_points, legend, legend_items};
 
+/// Most selected points that are marked one by one.
+const MARKED: usize = 2000;
+
 /// Paints what is over the scene: selection, hovered things, stencil, arrows, the colour scale, a marquee, and what is said.
 pub(super) fn paint(canvas: &Canvas, lab: &Lab, view: &EyeView, rect: Rect, pointer: Option<Pos2>, ui: &Ui) {
     let painter = ui.painter_at(rect);
@@ -22,7 +25,7 @@ pub(super) fn paint(canvas: &Canvas, lab: &Lab, view: &EyeView, rect: Rect, poin
     let place = |at: DVec3| Some(screen_from_page(rect, view.project(at)?.page));
     if let Some(object) = commands::selected(lab).filter(|object| object.visible) {
         let points = control_points(object);
-        for at in lab.selection.points.iter().filter_map(|&point| place(*points.get(point)?)) {
+        for at in lab.selection.points.iter().take(MARKED).filter_map(|&point| place(*points.get(point)?)) {
             painter.circle(at, 7.0, ink.gamma_multiply(0.35), Stroke::new(2.0, ink));
         }
     }

@@ -142,6 +142,8 @@ impl ShapeStore {
             self.shown = ids;
             self.look = lab.theme.name;
             self.version += 1;
+            // The panels, shown before the canvas, tell of the shapes too.
+            ctx.request_repaint();
             self.scene = scene(self.shown().map(|(_, shape)| shape), &lab.theme);
         }
     }

@@ -21,7 +21,7 @@ fn surface(name: &str, color: usize) -> Result<Content, EditError> {
         "Partially closed" => samples::partially_closed().into(),
         _ => samples::sphere_octant(),
     };
-    let display = SurfaceDisplay { color, ..SurfaceDisplay::default() };
+    let display = SurfaceDisplay { color, density: 20, ..SurfaceDisplay::default() };
     SurfaceObject::new(surface, display).map(Content::Surface)
 }
 

@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use crate::core::bspline::SplineError;
+use crate::core::progress::Stopped;
 use crate::core::tensor::TensorError;
 
 /// Errors of spline and NURBS surfaces; those of one direction carry their axis.
@@ -39,6 +40,9 @@ pub enum SurfaceError {
         /// The largest possible value.
         limit: usize,
     },
+    /// A watcher has stopped the work.
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
 }
 
 impl SurfaceError {
@@ -50,6 +54,7 @@ impl SurfaceError {
             Self::OpenBoundary { .. } => "OpenBoundary",
             Self::InvalidTolerance { .. } => "InvalidTolerance",
             Self::StepLimit { .. } => "StepLimit",
+            Self::Stopped(_) => "Stopped",
         }
     }
 

@@ -4,6 +4,7 @@
 //! which `⌈3n/2⌉` Gauss points on each knot interval are exact. Course: section 8.2.
 
 use crate::core::bspline::Side;
+use crate::core::progress::{Unwatched, Watcher};
 use crate::core::quadrature::{GaussRule, gauss_legendre};
 use crate::core::surface::curvature::SurfaceJet;
 use crate::core::surface::error::SurfaceError;
@@ -30,17 +31,34 @@ impl NurbsSurface {
     ///
     /// `OpenBoundary` with the axis unless every direction is periodic, has equal sides, or has sides that shrink to points; `StepLimit`.
     pub fn enclosed_volume(&self) -> Result<f64, SurfaceError> {
+        self.enclosed_volume_watched(&Unwatched)
+    }
+
+    /// As [`Self::enclosed_volume`] with a watcher, who hears how much of the surface is done.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::enclosed_volume`]; `Stopped`.
+    pub fn enclosed_volume_watched(&self, watcher: &dyn Watcher) -> Result<f64, SurfaceError> {
         self.check_closed()?;
         // Distances from a point of the surface, so that far away surfaces do not lose digits.
         let origin = self.points()[0];
         let density = |jet: &SurfaceJet| (jet.point - origin).dot(jet.du.cross(jet.dv)) / 3.0;
-        let rules = self.space().degrees().map(|n| rule((3 * n).div_ceil(2)));
         let cells = self.cells();
         if self.is_polynomial() {
-            return cells.into_iter().map(|cell| self.integrate_cell(cell, &rules, &density)).sum();
+            let rules = self.space().degrees().map(|n| rule((3 * n).div_ceil(2)));
+            let mut sum = 0.0;
+            let count = cells.len() as f64;
+            for (done, cell) in cells.into_iter().enumerate() {
+                watcher.check(done as f64 / count)?;
+                sum += self.integrate_cell(cell, &rules, &density)?;
+            }
+            return Ok(sum);
         }
+        // No rule is exact; one of high degree needs few halvings.
+        let rules = self.space().degrees().map(|n| rule(n + 8));
         let tolerance = RATIONAL_VOLUME * self.size().powi(3);
-        self.integrate_adaptively(cells, &rules, tolerance, &density)
+        self.integrate_adaptively(cells, &rules, tolerance, &density, watcher)
     }
 
     /// The area, with an estimated error below `tolerance`.
@@ -49,13 +67,21 @@ impl NurbsSurface {
     ///
     /// `InvalidTolerance`; `StepLimit` if rounding or a singularity keeps the tolerance from being reached.
     pub fn area(&self, tolerance: f64) -> Result<f64, SurfaceError> {
+        self.area_watched(tolerance, &Unwatched)
+    }
+
+    /// As [`Self::area`] with a watcher, who hears how much of the surface is done.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::area`]; `Stopped`.
+    pub fn area_watched(&self, tolerance: f64, watcher: &dyn Watcher) -> Result<f64, SurfaceError> {
         if tolerance.is_nan() || tolerance <= 0.0 {
             return Err(SurfaceError::InvalidTolerance { value: tolerance });
         }
         let rules = self.space().degrees().map(|n| rule(n + 3));
-        self.integrate_adaptively(self.cells(), &rules, tolerance, &|jet: &SurfaceJet| {
-            jet.du.cross(jet.dv).length()
-        })
+        let density = |jet: &SurfaceJet| jet.du.cross(jet.dv).length();
+        self.integrate_adaptively(self.cells(), &rules, tolerance, &density, watcher)
     }
 
     fn cells(&self) -> Vec<Cell> {
@@ -87,14 +113,18 @@ impl NurbsSurface {
         rules: &[GaussRule; 2],
         tolerance: f64,
         density: &impl Fn(&SurfaceJet) -> f64,
+        watcher: &dyn Watcher,
     ) -> Result<f64, SurfaceError> {
-        let share = tolerance / cells.len() as f64;
+        let count = cells.len() as f64;
+        let share = tolerance / count;
+        let mut done = 0.0;
         let (mut total, mut used) = (0.0, 0);
         let mut open: Vec<(Cell, f64, f64, usize)> = Vec::new();
         for cell in cells {
             open.push((cell, self.integrate_cell(cell, rules, density)?, share, 0));
         }
         while let Some((cell, coarse, share, depth)) = open.pop() {
+            watcher.check(done)?;
             used += 1;
             let middle = cell.map(|(a, b)| 0.5 * a + 0.5 * b);
             let mut parts = Vec::with_capacity(4);
@@ -108,6 +138,7 @@ impl NurbsSurface {
             let limit = limit.or((used > MAX_CELLS).then_some(("number of cells", MAX_CELLS)));
             if (fine - coarse).abs() <= share {
                 total += fine;
+                done += 0.25_f64.powi(depth as i32) / count;
             } else if let Some((what, limit)) = limit {
                 return Err(SurfaceError::StepLimit { what, value: limit + 1, limit });
             } else {

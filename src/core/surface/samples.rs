@@ -113,6 +113,6 @@ mod tests {
             assert!(sphere.normal([u, v]).unwrap().distance(point) < 1e-12, "the normal at ({u}, {v})");
         }
         let volume = sphere.enclosed_volume().unwrap();
-        assert!((volume - 2.0 / 3.0 * TAU).abs() < 1e-6, "{volume}");
+        assert!((volume - 2.0 / 3.0 * TAU).abs() < 1e-12, "{volume}");
     }
 }

@@ -120,21 +120,39 @@ impl Eye {
     /// extent is looked at from the present distance, one that is not finite changes nothing.
     #[must_use]
     pub fn fitted(&self, low: DVec3, high: DVec3, size: DVec2, margin: f64) -> Self {
+        self.fitted_to(corners(low, high), size, margin)
+    }
+
+    /// As [`Self::fitted`] with points in place of the corners of a box: looks at the middle of the smallest box around them.
+    #[must_use]
+    pub fn fitted_to(
+        &self,
+        points: impl IntoIterator<Item = DVec3, IntoIter: Clone>,
+        size: DVec2,
+        margin: f64,
+    ) -> Self {
+        let points = points.into_iter();
+        if !points.clone().all(|point| point.is_finite()) {
+            return *self;
+        }
+        let wide = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        let (low, high) = points.clone().fold(wide, |(low, high), point| (low.min(point), high.max(point)));
+        let middle = low + (high - low) * 0.5;
         let room = (size - DVec2::splat(2.0 * margin)).max(size * 0.1);
         let slope = room / size.y * self.half_height_slope();
         let axes = self.axes();
-        let half = (high - low) * 0.5;
-        // A corner at (x, y, z) from the middle is inside if |x| <= (distance − z)·slope, without z in parallel projection.
-        let needed = corners(-half, half).map(|corner| {
-            let z = if self.0.orthographic { 0.0 } else { corner.dot(axes.towards) };
-            let across = DVec2::new(corner.dot(axes.right), corner.dot(axes.up)).abs() / slope;
-            // A corner straight before the eye must not be too near to be seen.
+        // A point at (x, y, z) from the middle is inside if |x| <= (distance − z)·slope, without z in parallel projection.
+        let needed = points.map(|point| {
+            let point = point - middle;
+            let z = if self.0.orthographic { 0.0 } else { point.dot(axes.towards) };
+            let across = DVec2::new(point.dot(axes.right), point.dot(axes.up)).abs() / slope;
+            // A point straight before the eye must not be too near to be seen.
             (across.max_element() + z).max(z * (1.0 + 10.0 * NEAR))
         });
-        let needed = needed.into_iter().fold(0.0, f64::max);
+        let needed = needed.fold(0.0, f64::max);
         let distance = if needed > 0.0 { needed } else { self.0.distance };
         let distance = distance.clamp(EyeState::MIN_DISTANCE, EyeState::MAX_DISTANCE);
-        Self::new(EyeState { target: low + half, distance, ..self.0 }).unwrap_or(*self)
+        Self::new(EyeState { target: middle, distance, ..self.0 }).unwrap_or(*self)
     }
 
     /// From the world to the axes of the view, the eye in the origin.

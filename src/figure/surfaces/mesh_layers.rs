@@ -112,7 +112,7 @@ fn triangles(
         if smooth { smooth_corners(refined, positions) } else { flat_corners(refined, positions) };
     watcher.check(0.65)?;
     let points = vertices.iter().map(|&vertex| positions[vertex as usize]).collect();
-    let mut triangles = Triangles::new(points, triangles, theme.basis_color(display.color))?;
+    let mut triangles = Triangles::new(points, triangles, theme.surface_color(display.color))?;
     if normals.iter().all(|normal| normal.is_finite()) {
         triangles = triangles.with_normals(normals)?;
     }

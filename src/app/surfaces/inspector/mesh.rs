@@ -61,12 +61,12 @@ fn subdivision(lab: &mut Lab, canvas: &Canvas, ui: &mut Ui, object: &Arc<Object>
         let steps = shape.steps.last().filter(|_| is_current);
         steps.map(|step| step.mesh.counts())
     });
-    Grid::new("counts").num_columns(5).spacing([10.0, 2.0]).show(ui, |ui| {
-        for head in ["", "V", "E", "F", "V − E + F"] {
+    Grid::new("counts").num_columns(5).spacing([9.0, 2.0]).show(ui, |ui| {
+        for head in ["", "V", "E", "F", "V−E+F"] {
             ui.label(RichText::new(head).weak());
         }
         ui.end_row();
-        for (name, counts) in [("control mesh", Some(mesh.cage().counts())), ("refined", refined)] {
+        for (name, counts) in [("control", Some(mesh.cage().counts())), ("refined", refined)] {
             let Some(counts) = counts else { continue };
             ui.label(name);
             for count in counts {
@@ -167,7 +167,7 @@ fn stencil(canvas: &mut Canvas, ui: &mut Ui) {
                 ui.selectable_value(&mut canvas.one_step, true, "of the last step");
             });
         }
-        let height = 8.0 * (ui.spacing().interact_size.y + 2.0);
+        let height = 9.5 * (ui.spacing().interact_size.y + 2.0);
         eframe::egui::ScrollArea::vertical().id_salt("stencil").max_height(height).show(ui, |ui| {
             Grid::new("stencil table").num_columns(3).spacing([16.0, 2.0]).striped(true).show(ui, |ui| {
                 for head in ["vertex", "weight", ""] {

@@ -12,10 +12,11 @@ use crate::app::lab::Lab;
 use crate::app::number_field::{Drag, NumberField};
 use crate::app::surfaces::canvas::Canvas;
 use crate::app::surfaces::commands;
+use crate::app::surfaces::measures::Measures;
 use crate::document::{Content, Object, SurfaceColoring};
 
 /// Shows the inspector.
-pub(super) fn show(lab: &mut Lab, canvas: &mut Canvas, ui: &mut Ui) {
+pub(super) fn show(lab: &mut Lab, canvas: &mut Canvas, measures: &mut Measures, ui: &mut Ui) {
     let subject =
         commands::selected(lab).filter(|object| object.surface().is_some() || object.mesh().is_some());
     let Some(subject) = subject.cloned() else {
@@ -30,7 +31,7 @@ pub(super) fn show(lab: &mut Lab, canvas: &mut Canvas, ui: &mut Ui) {
         ui.add_space(4.0);
         points::show(lab, ui, &subject);
         match &subject.content {
-            Content::Surface(surface) => surface::show(lab, ui, &subject, surface),
+            Content::Surface(surface) => surface::show(lab, measures, ui, &subject, surface),
             Content::Mesh(mesh) => mesh::show(lab, canvas, ui, &subject, mesh),
             _ => {}
         }

@@ -9,24 +9,32 @@ use crate::app::lab::Lab;
 use crate::app::number_field::{Drag, NumberEvent, NumberField};
 use crate::app::surfaces::commands;
 use crate::app::surfaces::inspector::{check_boxes, color_limit, coloring, section};
+use crate::app::surfaces::measures::Measures;
 use crate::app::toolbar::button;
 use crate::document::{Content, Object, SurfaceColoring, SurfaceDisplay, SurfaceObject};
 use crate::figure::composition::short_number;
 
-/// Area and volume are computed for nets up to so many points.
-const MEASURED: usize = 400;
 /// Knots that are written in full.
 const KNOTS: usize = 24;
 
 /// Shows the sections.
-pub(super) fn show(lab: &mut Lab, ui: &mut Ui, object: &Arc<Object>, surface: &SurfaceObject) {
+pub(super) fn show(
+    lab: &mut Lab,
+    measures: &mut Measures,
+    ui: &mut Ui,
+    object: &Arc<Object>,
+    surface: &SurfaceObject,
+) {
     section(ui, "Directions", |ui| {
         for axis in 0..2 {
             direction(lab, ui, surface, axis);
         }
     });
     section(ui, "Shown", |ui| shown(lab, ui, object, surface));
-    section(ui, "Measured", |ui| measured(lab, ui, object, surface));
+    section(ui, "Measured", |ui| {
+        let text = measures.of(object, lab, ui.ctx()).unwrap_or("…");
+        ui.label(text);
+    });
 }
 
 fn direction(lab: &mut Lab, ui: &mut Ui, surface: &SurfaceObject, axis: usize) {
@@ -50,7 +58,9 @@ fn direction(lab: &mut Lab, ui: &mut Ui, surface: &SurfaceObject, axis: usize) {
     }
     ui.label(RichText::new(format!("Knots  {}", text.join("  "))).weak());
     let id = Id::unique(("knot to insert", axis));
-    let middle = 0.5 * low + 0.5 * high;
+    let breaks = space.breaks();
+    let longest = breaks.windows(2).max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
+    let middle = longest.map_or(low, |ends| 0.5 * ends[0] + 0.5 * ends[1]);
     let mut knot =
         ui.data(|data| data.get_temp::<f64>(id)).filter(|t| (low..=high).contains(t)).unwrap_or(middle);
     ui.horizontal_wrapped(|ui| {
@@ -111,13 +121,12 @@ fn shown(lab: &mut Lab, ui: &mut Ui, object: &Arc<Object>, surface: &SurfaceObje
         });
     });
     ui.horizontal(|ui| {
-        ui.label("Pieces between knots");
+        ui.label("Pieces between knots").on_hover_text("How fine the surface is drawn");
         let field = NumberField::new("Pieces between knots", display.density as f64).width(40.0);
         let field = field.drag(Drag::PerPixel(0.1)).check(piece_count).show(ui, ("density", object.id));
         commands::apply(lab, field.event, "Change fineness", |content, count| {
             with(content, |display| display.density = count.round() as usize)
         });
-        ui.label(RichText::new("of the drawing").weak());
     });
 }
 
@@ -138,34 +147,4 @@ fn line_count(count: f64) -> Result<(), String> {
 
 fn piece_count(count: f64) -> Result<(), String> {
     if (1.0..=100.0).contains(&count) { Ok(()) } else { Err("between 1 and 100 pieces".to_owned()) }
-}
-
-/// Area and volume of the surface at rest.
-fn measured(lab: &Lab, ui: &mut Ui, object: &Arc<Object>, surface: &SurfaceObject) {
-    let id = Id::unique(("measures", object.id));
-    let known: Option<(Arc<Object>, String)> = ui.data(|data| data.get_temp(id));
-    let text = match known.filter(|(known, _)| Arc::ptr_eq(known, object)) {
-        Some((_, text)) => text,
-        None if lab.history.is_interacting() => "…".to_owned(),
-        None if surface.surface().points().len() > MEASURED => "The net has too many points.".to_owned(),
-        None => {
-            let surface = surface.surface();
-            let size = surface.size();
-            let mut text = match surface.area(1e-4 * size * size) {
-                Ok(area) => format!("Area {}", short_number(area)),
-                Err(error) => format!("Area: {error}"),
-            };
-            if let Ok(volume) = surface.enclosed_volume() {
-                text.push_str(&format!("\nEnclosed volume {}", short_number(volume.abs())));
-                text.push_str(if volume < 0.0 {
-                    ", normals point inwards"
-                } else {
-                    ", normals point outwards"
-                });
-            }
-            ui.data_mut(|data| data.insert_temp(id, (object.clone(), text.clone())));
-            text
-        }
-    };
-    ui.label(text);
 }
