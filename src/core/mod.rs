@@ -2,9 +2,19 @@
 //!
 //! | section | file |
 //! |---|---|
+//! | 1.4 Bernstein polynomials | `polynomial/bernstein`, `polynomial/conversion` |
+//! | 1.5 Properties of Bernstein polynomials | `polynomial/calculus`, `polynomial/product`, `polynomial/zeros`, `root_finding` |
 //! | 2.1 Control polygon | `bezier/curve` |
+//! | 2.2 Properties of Bezier curves | `bezier/hull`, `bezier/crossings`, `bezier/tessellation` |
 //! | 2.3 Algorithm of de Casteljau | `bezier/de_casteljau`, `bezier/degree` |
-//! | 3.3 Homogeneous points | `rational_bezier/homogeneous` |
+//! | 2.4 Differentiation | `bezier/derivative`, `bezier/continuity` |
+//! | 2.5 Curvature | `bezier/curvature`, `bezier/inflections`, `bezier/geometric_continuity` |
+//! | 2.6 Subdivision | `bezier/subdivision`, `bezier/intersection`, `bezier/closest_point`, `bezier/arc_length` |
+//! | 2.7 Geometric Hermite interpolation | `bezier/geometric_hermite` |
+//! | 3.1 Control polygon and weights | `rational_bezier/curve`, `rational_bezier/weight_points` |
+//! | 3.2 Basic properties | `rational_bezier/reparametrisation` |
+//! | 3.3 Algorithms | `rational_bezier/{homogeneous, derivative, subdivision}` |
+//! | 3.4 Conic sections | `rational_bezier/{conic, extended_conic, conic_construction, circle}` |
 //! | 4.1 Recurrence relation | `bspline/basis` |
 //! | 4.2 Differentiation | `bspline/derivative`, `bspline/integral` |
 //! | 4.4 Splines | `bspline/space`, `bspline/builders`, `bspline/multiple_end_knots`, `bspline/uniform`, `bspline/piecewise` |
@@ -50,9 +60,11 @@ pub mod finite_element;
 pub mod formula;
 pub mod linear_system;
 pub mod point;
+pub mod polynomial;
 pub mod progress;
 pub mod quadrature;
 pub mod rational_bezier;
+pub mod root_finding;
 pub mod spline_curve;
 pub mod surface;
 pub mod tensor;
