@@ -317,7 +317,7 @@ mod tests {
         fn the_number_of_zeros_has_the_parity_of_the_sign_changes(c in prop::collection::vec(-1.0..1.0_f64, 2..14)) {
             let count: usize = bernstein_zeros(&c, 0.0).isolated().iter().map(|zero| zero.multiplicity).sum();
             let changes = strict_sign_changes(&c, 0.0);
-            prop_assert!(count <= changes && (changes - count) % 2 == 0, "{count} zeros, {changes} changes");
+            prop_assert!(count <= changes && (changes - count).is_multiple_of(2), "{count} zeros, {changes} changes");
         }
     }
 }

@@ -75,7 +75,7 @@ pub fn isolate_zeros(c: &[f64], tolerance: f64) -> Result<Vec<ZeroInterval>, Pol
         let n = c.len() - 1;
         // Two zero coefficients at an end make that end a multiple zero.
         let at_end = |first: f64, second: Option<&f64>| {
-            (first == 0.0).then(|| match second {
+            (first == 0.0).then_some(match second {
                 Some(0.0) | None => ZeroKind::PossiblyMultiple,
                 Some(_) => ZeroKind::Simple,
             })
