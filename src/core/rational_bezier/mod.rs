@@ -1,5 +1,36 @@
-//! Chapter 3: rational Bezier curves.
+//! Chapter 3: rational Bezier curves and conics.
+//!
+//! | file | what |
+//! |---|---|
+//! | `curve` | 3.1, 3.2 the curve, its rational basis, affine and projective maps, influence of a weight |
+//! | `weight_points` | 3.1 weights as points on the edges of the control polygon |
+//! | `reparametrisation` | 3.2 other weights for the same curve, standard form |
+//! | `homogeneous` | 3.3 homogeneous points |
+//! | `derivative` | 3.3 derivatives, frames, curvature |
+//! | `subdivision` | 3.3 split and restricted curves, degree elevation |
+//! | `conic` | 3.4 implicit conics: type, centre, axes, foci |
+//! | `conic_arc` | 3.4 arcs of an implicit conic and back |
+//! | `extended_conic` | 3.4 conics with a middle weight of any sign |
+//! | `conic_construction` | B.12 conics through points and with tangents |
+//! | `circle` | B.12 circles, arcs and ellipses of degree 2 and more |
 
+mod circle;
+mod conic;
+mod conic_arc;
+mod conic_construction;
+mod curve;
+mod derivative;
+mod error;
+mod extended_conic;
 mod homogeneous;
+mod reparametrisation;
+mod subdivision;
+mod weight_points;
 
+pub use circle::{circle, circle_arc, circle_arc_piece, ellipse};
+pub use conic::{Conic, ConicAxes, ConicKind, DegenerateConic};
+pub use curve::RationalBezier;
+pub use error::RationalBezierError;
+pub use extended_conic::{ExtendedConic, ExtendedParameter};
 pub use homogeneous::Projective;
+pub use reparametrisation::{StandardForm, parameter_before};
