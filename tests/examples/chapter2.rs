@@ -6,6 +6,8 @@ use spline_lab::core::bezier::{
     polygon_distance_factor, subdivision_matrix,
 };
 
+use spline_lab::core::rational_bezier::Contact;
+
 use crate::example::{Example, Got};
 
 /// The checks, by id.
@@ -237,6 +239,15 @@ pub(crate) const CHECKS: &[(&str, fn(&Example))] = &[
         let s = example.number("s");
         example.expect("left", plane_curve(example).split_points(s).unwrap().0);
         example.expect("left", plane_curve(example).restricted(0.0, s).unwrap().points());
+    }),
+    ("2.6-e", |example| {
+        let curve = |key: &str| BezierCurve::new(example.points(key)).unwrap();
+        let found = curve("C1").intersections(&curve("C2"), 1e-10).unwrap();
+        example.expect("points", found.iter().map(|hit| hit.point).collect::<Vec<_>>());
+        for j in 0..2 {
+            example.expect("t", found.iter().map(|hit| hit.parameters[j]).collect::<Vec<_>>());
+        }
+        assert!(found.iter().all(|hit| hit.contact == Contact::Crossing), "2.6-e: {found:?}");
     }),
     ("2.6-f", |example| {
         let (left, right) = plane_curve(example).split_points(example.number("s")).unwrap();

@@ -14,8 +14,10 @@
 //! | `inflections` | 2.5 where the curvature changes sign |
 //! | `geometric_continuity` | 2.5 joints with common tangent and curvature |
 //! | `subdivision` | 2.6 split and restricted curves |
+//! | `arc_length` | 2.6 length between chord and polygon |
 //! | `geometric_hermite` | 2.7 cubics from end points, directions and curvatures |
 
+mod arc_length;
 mod continuity;
 mod crossings;
 mod curvature;
@@ -31,6 +33,7 @@ mod inflections;
 mod subdivision;
 mod tessellation;
 
+pub use arc_length::EnclosedLength;
 pub use crossings::Crossings;
 pub use curvature::{CurvatureTooth, Frame, OsculatingCircle, SpaceFrame};
 pub use curve::BezierCurve;

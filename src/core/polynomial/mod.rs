@@ -26,5 +26,6 @@ pub use bernstein::{
 pub use calculus::{antiderivative, derivative, elevate, integral};
 pub use conversion::{bernstein_from_monomial, bernstein_to_monomial, conversion_matrix, monomial_growth};
 pub use error::PolynomialError;
+pub(in crate::core) use product::product_by;
 pub use product::{bernstein_gram, bernstein_product};
 pub use zeros::{ZeroInterval, ZeroKind, isolate_zeros, sign_changes};
