@@ -8,12 +8,14 @@
 //! | `knot_insertion` | 6.3 one knot, many knots, uniform refinement |
 //! | `knot_removal` | the nearest curve with one knot less |
 //! | `bezier_form` | 6.4 one Bezier curve for each knot interval |
+//! | `bezier_conversion` | 6.4 Bezier curves as splines and back |
 //! | `degree` | degree elevation and reduction |
 //! | `closest_point` | the point of a curve closest to a given point |
 //! | `curvature` | frames, signed curvature, osculating circles |
 //! | `deviation` | certified distance of two curves at equal parameters |
 
 mod batch;
+mod bezier_conversion;
 mod bezier_form;
 mod closest_point;
 mod curvature;
