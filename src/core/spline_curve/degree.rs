@@ -68,22 +68,6 @@ impl<P: Point> Spline<P> {
         sum * ((n + 1) as f64).recip()
     }
 
-    /// The blossom of the polynomial piece of the knot interval `span` at `n` arguments.
-    fn blossom_in_span(&self, span: usize, arguments: impl Iterator<Item = f64>) -> P {
-        let (n, knots) = (self.degree(), self.space().evaluation_knots());
-        let mut row = [P::ZERO; MAX_DEGREE + 1];
-        for (j, slot) in row[..=n].iter_mut().enumerate() {
-            *slot = self.evaluation_coefficient(span - n + j);
-        }
-        for (step, argument) in arguments.enumerate() {
-            for j in (step + 1..=n).rev() {
-                let k = span + j - n;
-                row[j] = row[j - 1].mix(row[j], (argument - knots[k]) / (knots[k + n - step] - knots[k]));
-            }
-        }
-        row[n]
-    }
-
     /// A spline of degree `n − 1` near this one; see the head of this file.
     ///
     /// # Errors

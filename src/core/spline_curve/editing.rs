@@ -163,7 +163,7 @@ impl Nurbs<DVec2> {
 }
 
 /// The open spline with `n`-fold ends and the outer knots where the convention puts them.
-fn clamped<P: Point>(spline: &Spline<P>) -> Result<Spline<P>, SplineError> {
+pub(super) fn clamped<P: Point>(spline: &Spline<P>) -> Result<Spline<P>, SplineError> {
     let n = spline.degree();
     let open = spline.unroll()?;
     let (left, right) = open.space().parameter_interval();

@@ -126,7 +126,10 @@ impl Question {
             Task::Elements { quantity, tolerance } => {
                 let object = document.object(ObjectId(self.object));
                 let Some((membrane, _)) = object.and_then(|object| object.membrane()) else {
-                    return Verdict::wrong(None, "The problem of this question is gone. Open the lesson again.");
+                    return Verdict::wrong(
+                        None,
+                        "The problem of this question is gone. Open the lesson again.",
+                    );
                 };
                 typed(answer, |value| elements::check(membrane, quantity, *tolerance, value, &self.feedback))
             }
