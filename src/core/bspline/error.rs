@@ -107,6 +107,14 @@ pub enum SplineError {
         /// Right end.
         right: f64,
     },
+    /// An interval without length.
+    #[error("the interval from {left} to {right} is empty")]
+    EmptyInterval {
+        /// Its start.
+        left: f64,
+        /// Its end, not behind the start.
+        right: f64,
+    },
     /// A weight is not positive.
     #[error("weight {index} is {value}; weights must be positive")]
     WeightNotPositive {
@@ -183,6 +191,7 @@ impl SplineError {
             Self::KnotsNotRegular { .. } => "KnotsNotRegular",
             Self::PeriodTooShort { .. } => "PeriodTooShort",
             Self::OutsideInterval { .. } => "OutsideInterval",
+            Self::EmptyInterval { .. } => "EmptyInterval",
             Self::WeightNotPositive { .. } => "WeightNotPositive",
             Self::NotInSpace { .. } => "NotInSpace",
             Self::NoSolution { .. } => "NoSolution",

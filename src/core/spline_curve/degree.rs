@@ -361,3 +361,16 @@ mod tests {
         assert!((raised.points()[1].y - (2.0 - 2.0_f64.sqrt())).abs() < 1e-15, "{:?}", raised.points());
     }
 }
+#[cfg(test)]
+mod probe {
+    use crate::core::spline_curve::samples::{any_curve, distance};
+    use proptest::prelude::*;
+    proptest! {
+        #[test]
+        fn elevation_keeps_every_curve(curve in any_curve(1..=24)) {
+            let raised = curve.elevate_degree().unwrap();
+            let error = distance(&curve, &raised);
+            prop_assert!(error < 1e-10, "degree {}: off by {error}", curve.degree());
+        }
+    }
+}

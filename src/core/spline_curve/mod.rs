@@ -3,8 +3,8 @@
 //! | file | what |
 //! |---|---|
 //! | `nurbs` | 6.1 the rational curve |
-//! | `editing` | 6.1 replaced points and weights, reversed, split, opened and closed curves, the circle |
-//! | `trim`, `join` | 6.1 a part of a curve, two curves as one |
+//! | `editing` | 6.1 replaced points and weights, reversed, opened and closed curves, the circle |
+//! | `trim`, `join` | 6.1 a part of a curve, both sides of a parameter, two curves as one |
 //! | `hull` | 6.2 hull and box of the active control points |
 //! | `distance_bound` | 6.2 distance of curve and control polygon |
 //! | `tessellation` | 6.2 polygons within a tolerance |
@@ -34,6 +34,7 @@ mod hull;
 mod hyperplane;
 mod hyperplane_intersection;
 mod insertion_scheme;
+mod join;
 mod knot_insertion;
 mod knot_removal;
 mod nurbs;
@@ -43,6 +44,7 @@ mod refinement_matrix;
 mod samples;
 mod subdivision;
 mod tessellation;
+mod trim;
 
 pub use bezier_form::{BezierPieces, BezierSegment, RationalSegment};
 pub use blossom::{LabelBetween, label_closure, labels_between};
