@@ -15,8 +15,8 @@ use crate::core::spline_curve::bezier_form::BezierSegment;
 
 /// The subdivision also stops here, relative to the size of the curves: below is rounding.
 const NEGLIGIBLE: f64 = 1e-13;
-/// Steps of the golden section search for the largest distance around a sample.
-const SEARCH_STEPS: usize = 48;
+/// Steps of the bisection for the largest distance around a sample.
+const SEARCH_STEPS: usize = 53;
 /// Relative difference up to which two parameter intervals count as equal.
 const SAME_INTERVAL: f64 = 1e-12;
 
@@ -146,7 +146,7 @@ impl<P: Point> Piece<P> {
         value / (de_casteljau(&self.first, t) * de_casteljau(&self.second, t))
     }
 
-    /// Raises `found.lower` to the largest distance at equal steps, and from there to the top by a golden section search.
+    /// Raises `found.lower` to the largest distance at equal steps, and from there to the top by bisection on the sign of its slope.
     fn sample(&self, found: &mut Deviation) {
         let count = 2 * self.numerator.len().min(16);
         let mut best = (found.lower, None);
@@ -160,30 +160,30 @@ impl<P: Point> Piece<P> {
         let (top, Some(t)) = best else { return };
         let step = 1.0 / count as f64;
         let (mut low, mut high) = ((t - step).max(0.0), (t + step).min(1.0));
-        let (mut best, mut at) = (top, t);
-        let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
-        // Inside rounding, and far below the bound: nothing to refine.
-        let steps = if top > 1e-6 * self.upper { SEARCH_STEPS } else { 0 };
-        let (mut x, mut y) = (high - golden * (high - low), low + golden * (high - low));
-        let (mut at_x, mut at_y) = (self.distance(x), self.distance(y));
-        for _ in 0..steps {
-            if at_x >= at_y {
-                (high, y, at_y) = (y, x, at_x);
-                x = high - golden * (high - low);
-                at_x = self.distance(x);
-            } else {
-                (low, x, at_x) = (x, y, at_y);
-                y = low + golden * (high - low);
-                at_y = self.distance(y);
+        let mut at = t;
+        if self.rises(low) && !self.rises(high) {
+            for _ in 0..SEARCH_STEPS {
+                at = 0.5 * (low + high);
+                if self.rises(at) {
+                    low = at;
+                } else {
+                    high = at;
+                }
             }
         }
-        for (distance, place) in [(at_x, x), (at_y, y)] {
-            if distance > best {
-                (best, at) = (distance, place);
-            }
-        }
-        found.lower = best;
-        found.at = self.interval.0.mix(self.interval.1, at);
+        let found_there = self.distance(at);
+        let (distance, place) = if found_there >= top { (found_there, at) } else { (top, t) };
+        found.lower = distance;
+        found.at = self.interval.0.mix(self.interval.1, place);
+    }
+
+    /// Whether the distance grows at `t`: the sign of `N·N′ − |N|² (f′/f + s′/s)` for `N/(f s)`.
+    fn rises(&self, t: f64) -> bool {
+        let ((value, slope), (first, first_slope)) =
+            (with_slope(&self.numerator, t), with_slope(&self.first, t));
+        let (second, second_slope) = with_slope(&self.second, t);
+        let dot = |a: P, b: P| (0..P::DIMENSION).map(|i| a.coordinate(i) * b.coordinate(i)).sum::<f64>();
+        dot(value, slope) > dot(value, value) * (first_slope / first + second_slope / second)
     }
 
     fn halves(self) -> [Self; 2] {
@@ -305,13 +305,21 @@ fn elevated<P: Point>(mut points: Vec<P>, degree: usize) -> Vec<P> {
 }
 
 fn de_casteljau<P: Point>(points: &[P], t: f64) -> P {
+    with_slope(points, t).0
+}
+
+/// Value and derivative.
+fn with_slope<P: Point>(points: &[P], t: f64) -> (P, P) {
     let mut points = points.to_vec();
-    for count in (1..points.len()).rev() {
+    let n = points.len() - 1;
+    let mut slope = P::ZERO;
+    for count in (1..=n).rev() {
+        slope = points[1] - points[0];
         for j in 0..count {
             points[j] = points[j].mix(points[j + 1], t);
         }
     }
-    points[0]
+    (points[0], slope * n as f64)
 }
 
 /// Control points of the left and the right half.
