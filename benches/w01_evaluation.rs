@@ -8,8 +8,8 @@ mod report;
 use std::hint::black_box;
 
 use glam::DVec2;
-use report::{load, measure};
-use spline_lab::core::bspline::{EndKnots, PowerForm, Spline, SplineSpace};
+use report::{curve, load, measure};
+use spline_lab::core::bspline::PowerForm;
 
 fn main() {
     let curve = curve();
@@ -46,27 +46,4 @@ fn main() {
     measure("W2-d2", some.len(), "PowerForm::derivatives_into, the form made before", || {
         form.derivatives_into(&some, &mut jets).expect(fine);
     });
-}
-
-fn curve() -> Spline<DVec2> {
-    let points: Vec<DVec2> = match load("c_ctrl") {
-        Some(numbers) => numbers.chunks_exact(2).map(DVec2::from_slice).collect(),
-        None => (0..1000)
-            .map(|k| 0.012 * f64::from(k))
-            .map(|s| DVec2::new(s.cos(), s.sin()) * (0.3 + 0.01 * s))
-            .collect(),
-    };
-    let space = match load("c_knots") {
-        // These end-knots are 4-fold less one, as everywhere else.
-        Some(knots) => {
-            let (left, right) = (knots[0] - 1.0, knots[knots.len() - 1] + 1.0);
-            let inner = &knots[1..knots.len() - 1];
-            SplineSpace::new(3, [&[left], inner, &[right]].concat())
-        }
-        None => {
-            let breaks: Vec<f64> = (0..998).map(|i| f64::from(i) / 997.0).collect();
-            SplineSpace::from_breaks(3, &breaks, EndKnots::Interpolating)
-        }
-    };
-    Spline::new(space.expect("knots increase"), points).expect("1000 points")
 }

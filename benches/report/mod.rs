@@ -6,6 +6,9 @@
 use std::path::Path;
 use std::time::Instant;
 
+use glam::DVec2;
+use spline_lab::core::bspline::{EndKnots, Spline, SplineSpace};
+
 /// Runs `work` once to warm up, then until two seconds or 25 runs are over, at least five times; prints one line for `items` items.
 pub(crate) fn measure(workload: &str, items: usize, how: &str, mut work: impl FnMut()) {
     work();
@@ -42,4 +45,28 @@ pub(crate) fn load(name: &str) -> Option<Vec<f64>> {
     let home = std::env::var_os("PEERS_HOME")?;
     let bytes = std::fs::read(Path::new(&home).join("data").join(format!("{name}.f64"))).ok()?;
     Some(bytes.as_chunks().0.iter().map(|&number| f64::from_le_bytes(number)).collect())
+}
+
+/// The cubic curve with 1000 control points.
+pub(crate) fn curve() -> Spline<DVec2> {
+    let points: Vec<DVec2> = match load("c_ctrl") {
+        Some(numbers) => numbers.chunks_exact(2).map(DVec2::from_slice).collect(),
+        None => (0..1000)
+            .map(|k| 0.012 * f64::from(k))
+            .map(|s| DVec2::new(s.cos(), s.sin()) * (0.3 + 0.01 * s))
+            .collect(),
+    };
+    let space = match load("c_knots") {
+        // These end-knots are 4-fold less one, as everywhere else.
+        Some(knots) => {
+            let (left, right) = (knots[0] - 1.0, knots[knots.len() - 1] + 1.0);
+            let inner = &knots[1..knots.len() - 1];
+            SplineSpace::new(3, [&[left], inner, &[right]].concat())
+        }
+        None => {
+            let breaks: Vec<f64> = (0..998).map(|i| f64::from(i) / 997.0).collect();
+            SplineSpace::from_breaks(3, &breaks, EndKnots::Interpolating)
+        }
+    };
+    Spline::new(space.expect("knots increase"), points).expect("1000 points")
 }
