@@ -413,6 +413,33 @@ fn inserting_a_knot_keeps_the_surface() {
 }
 
 #[test]
+fn the_lessons_of_the_room_judge_a_typed_answer() {
+    for (section, wrong, hint, right) in
+        [("8.2", "3", "control point", "2,1213"), ("8.3", "4/9", "midpoints", "5/9")]
+    {
+        let mut window = window(None);
+        let current = |window: &Window| lab(window).lesson.as_ref().map(|state| state.lesson.section.clone());
+        while current(&window).as_deref() != Some(section) {
+            key(&mut window, Modifiers::NONE, Key::PageDown);
+        }
+        assert_eq!(lab(&window).room(), Room::Surfaces, "{section} opens here");
+        for (answer, is_right) in [(wrong, false), (right, true)] {
+            window.get_by_label("Answer").focus();
+            window.step();
+            window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+            window.step();
+            window.get_by_label("Answer").type_text(answer);
+            window.step();
+            window.key_press(Key::Enter);
+            window.run_steps(3);
+            let verdict = lab(&window).lesson.as_ref().unwrap().verdict.clone().unwrap();
+            assert_eq!(verdict.correct, is_right, "{section}, {answer}: {verdict:?}");
+            assert!(is_right || verdict.message.contains(hint), "{section}, {answer}: {verdict:?}");
+        }
+    }
+}
+
+#[test]
 fn the_room_survives_every_command_with_and_without_an_object() {
     for content in [None, torus(), cube(), sheet()] {
         let mut window = window(content);
