@@ -2,11 +2,11 @@
 //!
 //! Reads `PEERS_HOME/data/i_x_N.f64` and `i_y_N.f64` (raw f64); without them, data of the same shape. One JSON line per measurement.
 
-#![allow(clippy::print_stdout, reason = "the measurements are what it is for")]
+mod report;
 
 use std::hint::black_box;
-use std::time::Instant;
 
+use report::load;
 use spline_lab::core::approximation::{
     EndConditions, Smoothing, cubic_interpolation, interpolate, least_squares, not_a_knot_space,
     smoothing_spline,
@@ -40,14 +40,7 @@ fn main() {
 }
 
 fn data(count: usize) -> (Vec<f64>, Vec<f64>) {
-    let read = |name: &str| -> Option<Vec<f64>> {
-        let home = std::env::var_os("PEERS_HOME")?;
-        let bytes =
-            std::fs::read(std::path::Path::new(&home).join("data").join(format!("{name}_{count}.f64")))
-                .ok()?;
-        let number = |chunk: &[u8]| f64::from_le_bytes(chunk.try_into().expect("eight bytes"));
-        Some(bytes.chunks_exact(8).map(number).collect())
-    };
+    let read = |name: &str| load(&format!("{name}_{count}"));
     if let (Some(x), Some(y)) = (read("i_x"), read("i_y")) {
         return (x, y);
     }
@@ -65,25 +58,8 @@ fn data(count: usize) -> (Vec<f64>, Vec<f64>) {
     (x, y)
 }
 
-/// Median and least of the wall times of 15 runs, after one that warms up.
 fn measure<T>(workload: &str, count: usize, how: &str, mut run: impl FnMut() -> T) {
-    black_box(run());
-    let mut times: Vec<f64> = (0..15)
-        .map(|_| {
-            let start = Instant::now();
-            let result = black_box(run());
-            let time = start.elapsed().as_secs_f64();
-            drop(result);
-            time
-        })
-        .collect();
-    times.sort_by(f64::total_cmp);
-    let (median, least, reps) = (times[times.len() / 2], times[0], times.len());
-    let line = format!(
-        "{{\"workload\": \"{workload}\", \"peer\": \"spline-lab {}\", \"n\": {count}, \"median_s\": {median:e}, \"min_s\": {least:e}, \
-         \"reps\": {reps}, \"threads\": 1, \"how\": \"{how}\", \"items_per_s\": {:e}}}",
-        env!("CARGO_PKG_VERSION"),
-        count as f64 / median
-    );
-    println!("{line}");
+    report::measure(workload, count, how, || {
+        black_box(run());
+    });
 }

@@ -6,9 +6,8 @@
 
 mod report;
 
-use std::path::Path;
-
 use glam::DVec3;
+use report::load;
 use spline_lab::core::bspline::SplineSpace;
 use spline_lab::core::surface::NurbsSurface;
 use spline_lab::core::tensor::TensorSplineSpace;
@@ -55,10 +54,4 @@ fn knots(name: &str, seed: u64) -> SplineSpace {
         [vec![0.0; 3], breaks.iter().map(|b| b / last).collect(), vec![1.0; 3]].concat()
     };
     SplineSpace::from_either_convention(3, load(name).unwrap_or_else(made)).unwrap()
-}
-
-fn load(name: &str) -> Option<Vec<f64>> {
-    let home = std::env::var_os("PEERS_HOME")?;
-    let bytes = std::fs::read(Path::new(&home).join("data").join(format!("{name}.f64"))).ok()?;
-    Some(bytes.chunks_exact(8).map(|chunk| f64::from_le_bytes(chunk.try_into().unwrap())).collect())
 }

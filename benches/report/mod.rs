@@ -1,7 +1,9 @@
-//! One JSON line per measurement: median, fastest run, and how.
+//! One JSON line per measurement: median, fastest run, and how. The numbers that other libraries were measured with.
 
 #![allow(clippy::print_stdout, reason = "the lines are what a benchmark is for")]
+#![allow(dead_code, reason = "not every benchmark needs everything")]
 
+use std::path::Path;
 use std::time::Instant;
 
 /// Runs `work` once to warm up, then until two seconds or 25 runs are over, at least five times; prints one line for `items` items.
@@ -33,4 +35,11 @@ pub(crate) fn check(workload: &str, fields: &str) {
         "{{\"workload\": \"{workload}-check\", \"peer\": \"spline-lab {}\", {fields}}}",
         env!("CARGO_PKG_VERSION")
     );
+}
+
+/// The numbers of `$PEERS_HOME/data/NAME.f64`, little-endian `f64`.
+pub(crate) fn load(name: &str) -> Option<Vec<f64>> {
+    let home = std::env::var_os("PEERS_HOME")?;
+    let bytes = std::fs::read(Path::new(&home).join("data").join(format!("{name}.f64"))).ok()?;
+    Some(bytes.as_chunks().0.iter().map(|&number| f64::from_le_bytes(number)).collect())
 }

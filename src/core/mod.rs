@@ -2,9 +2,19 @@
 //!
 //! | section | file |
 //! |---|---|
+//! | 1.4 Bernstein polynomials | `polynomial/bernstein`, `polynomial/conversion` |
+//! | 1.5 Properties of Bernstein polynomials | `polynomial/calculus`, `polynomial/product`, `polynomial/zeros`, `root_finding` |
 //! | 2.1 Control polygon | `bezier/curve` |
+//! | 2.2 Properties of Bezier curves | `bezier/hull`, `bezier/crossings`, `bezier/tessellation` |
 //! | 2.3 Algorithm of de Casteljau | `bezier/de_casteljau`, `bezier/degree` |
-//! | 3.3 Homogeneous points | `rational_bezier/homogeneous` |
+//! | 2.4 Differentiation | `bezier/derivative`, `bezier/continuity` |
+//! | 2.5 Curvature | `bezier/curvature`, `bezier/inflections`, `bezier/geometric_continuity` |
+//! | 2.6 Subdivision | `bezier/subdivision`, `bezier/arc_length`, `rational_bezier/intersection`, `rational_bezier/closest_point` |
+//! | 2.7 Geometric Hermite interpolation | `bezier/geometric_hermite` |
+//! | 3.1 Control polygon and weights | `rational_bezier/curve`, `rational_bezier/weight_points` |
+//! | 3.2 Basic properties | `rational_bezier/reparametrisation` |
+//! | 3.3 Algorithms | `rational_bezier/{homogeneous, derivative, subdivision, tessellation, intersection, closest_point}` |
+//! | 3.4 Conic sections | `rational_bezier/{conic, conic_arc, extended_conic, conic_construction, circle}` |
 //! | 4.1 Recurrence relation | `bspline/basis` |
 //! | 4.2 Differentiation | `bspline/derivative`, `bspline/integral` |
 //! | 4.4 Splines | `bspline/space`, `bspline/builders`, `bspline/multiple_end_knots`, `bspline/uniform`, `bspline/piecewise` |
@@ -15,7 +25,7 @@
 //! | 5.6 Smoothing | `approximation/smoothing`, `approximation/smoothing_choice`, `approximation/smoothing_system`, `approximation/least_squares` |
 //! | 6.1 Control polygon | `spline_curve/nurbs`, `spline_curve/editing`, `spline_curve/curvature` |
 //! | 6.3 Refinement | `spline_curve/knot_insertion`, `spline_curve/knot_removal` |
-//! | 6.4 Algorithms | `spline_curve/bezier_form` |
+//! | 6.4 Algorithms | `spline_curve/bezier_form`, `spline_curve/bezier_conversion` |
 //! | 7.3 Splines | `tensor/space`, `tensor/tensor_product`, `tensor/marsden`, `tensor/relevance`, `tensor/box_spline` |
 //! | 7.4 Algorithms | `tensor/grid`, `tensor/derivative`, `tensor/refinement`, `tensor/uniform_tableau` |
 //! | 8.2 Spline surfaces | `surface/nurbs_surface`, `surface/grid`, `surface/measure`, `surface/tessellation`, `surface/curvature` |
@@ -50,9 +60,11 @@ pub mod finite_element;
 pub mod formula;
 pub mod linear_system;
 pub mod point;
+pub mod polynomial;
 pub mod progress;
 pub mod quadrature;
 pub mod rational_bezier;
+pub mod root_finding;
 pub mod spline_curve;
 pub mod surface;
 pub mod tensor;

@@ -71,9 +71,48 @@ impl<P: Point> TriangularScheme<P> {
     }
 }
 
+/// The apex of the scheme with the constant weight `t`, in place: the point `Σ C(n,k) (1 − t)ⁿ⁻ᵏ tᵏ points[k]`.
+///
+/// Afterwards `points` holds the last diagonal `pⁿ⁻ʲⱼ`: the control points of the part over `[t, 1]`. No points give
+/// the origin.
+pub fn collapse<P: Point>(points: &mut [P], t: f64) -> P {
+    for count in (1..points.len()).rev() {
+        for j in 0..count {
+            points[j] = points[j].mix(points[j + 1], t);
+        }
+    }
+    points.first().copied().unwrap_or(P::ZERO)
+}
+
+/// As [`collapse`]; `first` receives the first diagonal `pʲ₀`, the control points of the part over `[0, t]`.
+///
+/// `first` must not be shorter than `points`; what is longer stays.
+pub fn collapse_both<P: Point>(points: &mut [P], t: f64, first: &mut [P]) {
+    let n = points.len();
+    for (step, place) in first.iter_mut().enumerate().take(n) {
+        *place = points[0];
+        for j in 0..n - 1 - step {
+            points[j] = points[j].mix(points[j + 1], t);
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn both_diagonals_of_the_scheme_are_left_in_place() {
+        let mut points = [8.0, 0.0, 16.0, 8.0];
+        let scheme = TriangularScheme::run(points.to_vec(), 3, |_, _| 0.25);
+        let mut first = [0.0; 4];
+        collapse_both(&mut points, 0.25, &mut first);
+        for j in 0..4 {
+            assert_eq!(first[j], scheme.levels()[j][0], "first diagonal, entry {j}");
+            assert_eq!(points[j], scheme.levels()[3 - j][j], "last diagonal, entry {j}");
+        }
+        assert_eq!(collapse::<f64>(&mut [], 0.5), 0.0, "no points");
+    }
 
     #[test]
     fn constant_weights_give_the_bernstein_sum() {

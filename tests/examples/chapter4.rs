@@ -1,8 +1,9 @@
 //! Chapter 4: B-splines.
 
 use spline_lab::core::bspline::{
-    EndKnots, PolynomialPiece, Side, Spline, SplineError, SplineSpace, basis_function, basis_segments,
-    uniform_evaluate, uniform_taylor,
+    EndKnots, PolynomialPiece, Side, Spline, SplineError, SplineSpace, basis_derivative,
+    basis_derivative_coefficients, basis_function, basis_integral, basis_leading_term, basis_segments,
+    basis_smoothness, uniform_evaluate, uniform_taylor,
 };
 
 use crate::example::{Example, Got};
@@ -49,6 +50,96 @@ pub(crate) const CHECKS: &[(&str, fn(&Example))] = &[
     ("4.1-j", b_spline_is_refused),
     ("4.1-k", b_spline_is_refused),
     ("4.1-l", b_spline_is_refused),
+    ("4.2-a", |example| {
+        let (n, knots) = (example.count("n"), example.numbers("knots"));
+        for order in 1..=2 {
+            let coefficients = basis_derivative_coefficients(n, &knots, order).unwrap();
+            example.expect(&format!("d{order}"), coefficients);
+        }
+        for (key, side) in [("d2(3-)", Side::Left), ("d2(3+)", Side::Right)] {
+            example.expect(key, basis_derivative(n, &knots, 3.0, 2, side).unwrap());
+        }
+        let third = |x: f64| basis_derivative(n, &knots, x, 3, Side::Right).unwrap();
+        example.expect("d3", [2.0, 4.0, 7.0].map(third).to_vec());
+    }),
+    ("4.2-b", |example| {
+        let (n, knots) = (example.count("n"), example.numbers("knots"));
+        for order in 1..=2 {
+            let coefficients = basis_derivative_coefficients(n, &knots, order).unwrap();
+            example.expect(&format!("d{order}"), coefficients);
+        }
+        for side in [Side::Left, Side::Right] {
+            let second = |x: f64| basis_derivative(n, &knots, x, 2, side).unwrap();
+            example.expect("d2_at", [3.0, 4.0, 6.0].map(second).to_vec());
+        }
+    }),
+    ("4.2-c", |example| {
+        let (n, knots) = (example.count("n"), example.numbers("knots"));
+        let term = basis_leading_term(n, &knots, Side::Left).unwrap();
+        example.expect("order", term.order);
+        example.expect("beta", term.coefficient);
+        let segments = basis_segments(n, &knots).unwrap();
+        example.expect("segment", segments[1].clone());
+    }),
+    ("4.2-d", |example| {
+        let cases = example.rows("knots").into_iter().zip(example.numbers("n"));
+        let integrals = cases.map(|(knots, n)| basis_integral(n as usize, &knots).unwrap());
+        example.expect("integral", integrals.collect::<Vec<_>>());
+    }),
+    ("4.2-e", |example| {
+        let orders = |(knots, n): (Vec<f64>, f64)| {
+            let smoothness = basis_smoothness(n as usize, &knots).unwrap();
+            smoothness.iter().map(|knot| knot.order as f64).collect::<Vec<_>>()
+        };
+        let cases = example.rows("knots").into_iter().zip(example.numbers("n"));
+        example.expect("continuity", cases.map(orders).collect::<Vec<_>>());
+    }),
+    ("4.2-f", |example| {
+        let (n, knots) = (example.count("n"), example.numbers("knots"));
+        let slope = basis_derivative(n, &knots, example.number("x"), 1, Side::Right);
+        example.expect("db", slope.unwrap());
+    }),
+    ("4.3-a", |example| {
+        example.expect("greville_abscissae", space(example).unwrap().greville_abscissae());
+    }),
+    ("4.3-b", |example| {
+        let space = space(example).unwrap();
+        example.expect("c", space.monomial_coefficients(example.count("m")).unwrap());
+        let (n, variances) = (space.degree() as f64, space.knot_variances());
+        let averages = space.greville_abscissae().into_iter();
+        example.expect("c", averages.zip(variances).map(|(a, v)| a * a - v / n).collect::<Vec<_>>());
+    }),
+    ("4.3-c", |example| {
+        let space = space(example).unwrap();
+        let coefficients = space.monomial_coefficients(example.count("m")).unwrap();
+        example.expect("c", coefficients.clone());
+        example.expect("value_at_5", Spline::new(space, coefficients).unwrap().evaluate(5.0).unwrap());
+    }),
+    ("4.3-d", |example| {
+        let (space, x, y) = (space(example).unwrap(), example.number("x"), example.number("y"));
+        let psi: Vec<f64> = (0..space.dimension()).map(|k| space.marsden_coefficient(k, y)).collect();
+        let span = space.span(x).unwrap();
+        example.expect("psi", &psi[span - space.degree()..=span]);
+        example.expect("sum", Spline::new(space, psi).unwrap().evaluate(x).unwrap());
+    }),
+    ("4.3-e", |example| {
+        let (n, k) = (example.count("n"), example.numbers("k"));
+        let space = SplineSpace::new(n, (0..12).map(f64::from).collect()).unwrap();
+        let square = space.monomial_coefficients(2).unwrap();
+        example.expect("c", k.into_iter().map(|k| square[k as usize]).collect::<Vec<_>>());
+    }),
+    ("4.3-f", |example| {
+        let piece = PolynomialPiece { origin: 0.0, coefficients: example.numbers("monomial") };
+        let coefficients = |knots: Vec<f64>| {
+            let space = SplineSpace::new(example.count("n"), knots).unwrap();
+            Spline::from_polynomial(space, &piece).unwrap().into_parts().1
+        };
+        example.expect("c", example.rows("knots").into_iter().map(coefficients).collect::<Vec<_>>());
+    }),
+    ("4.3-g", |example| {
+        let result = space(example).unwrap().monomial_coefficients(example.count("m"));
+        example.expect_error(result.as_ref().map_err(SplineError::name));
+    }),
     ("4.4-a", |example| {
         let name = |(n, knots): (f64, Vec<f64>)| match SplineSpace::new(n as usize, knots) {
             Ok(_) => "ok",
@@ -174,7 +265,55 @@ pub(crate) const CHECKS: &[(&str, fn(&Example))] = &[
         let spans = example.numbers("x").into_iter().map(|x| space.span(x).unwrap());
         example.expect("l", spans.collect::<Vec<_>>());
     }),
+    ("4.6-a", |example| {
+        let spline = oscillating(example.count("n"));
+        example.expect("p", values(&spline, &example.numbers("x")));
+        example.expect("dp(1/2)", spline.derivatives(0.5, 1, Side::Right).unwrap()[1]);
+        example.expect("d2p(0)", spline.derivatives(0.0, 2, Side::Right).unwrap()[2]);
+    }),
+    ("4.6-b", |example| {
+        let x = example.numbers("x");
+        let of_degree = |n: f64| values(&oscillating(n as usize), &x);
+        example.expect("p", Got::List(example.numbers("n").into_iter().map(of_degree).collect()));
+    }),
+    ("4.6-c", |example| {
+        let spline = periodic(example, example.numbers("c")).unwrap();
+        let open = spline.unroll().unwrap();
+        example.expect("unrolled_knots", open.space().knots());
+        example.expect("unrolled_c", open.coefficients());
+        example.expect("p", values(&spline, &example.numbers("x")));
+    }),
+    ("4.6-d", |example| {
+        let spline = periodic(example, example.numbers("c")).unwrap();
+        example.expect("d", spline.derivative().unwrap().coefficients());
+    }),
+    ("4.6-e", |example| {
+        let spline = periodic(example, example.numbers("c")).unwrap();
+        example.expect("p", spline.evaluate(example.number("x")).unwrap());
+        example.expect("unrolled_knots", spline.unroll().unwrap().space().knots());
+    }),
+    ("4.6-f", |example| {
+        example.expect("mean", periodic(example, example.numbers("c")).unwrap().mean().unwrap());
+    }),
+    ("4.6-g", period_is_refused),
+    ("4.6-h", period_is_refused),
 ];
+
+/// `cₖ = (−1)ᵏ` over the integers.
+fn oscillating(degree: usize) -> Spline<f64> {
+    let space = SplineSpace::periodic(degree, 2.0, vec![0.0, 1.0]).unwrap();
+    Spline::new(space, vec![1.0, -1.0]).unwrap()
+}
+
+fn periodic(example: &Example, coefficients: Vec<f64>) -> Result<Spline<f64>, SplineError> {
+    let knots = example.numbers("knots");
+    Spline::new(SplineSpace::periodic(example.count("n"), example.number("T"), knots)?, coefficients)
+}
+
+fn period_is_refused(example: &Example) {
+    let result = periodic(example, example.numbers("c"));
+    example.expect_error(result.as_ref().map_err(SplineError::name));
+}
 
 fn space(example: &Example) -> Result<SplineSpace, SplineError> {
     SplineSpace::new(example.count("n"), example.numbers("knots"))

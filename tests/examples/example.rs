@@ -220,12 +220,14 @@ fn number(value: &Value) -> Option<f64> {
     }
 }
 
-fn numbers(value: &Value) -> Vec<f64> {
+/// The numbers of a list.
+pub(crate) fn numbers(value: &Value) -> Vec<f64> {
     let list = value.as_array().unwrap_or_else(|| panic!("{value} is no list"));
     list.iter().map(|entry| number(entry).unwrap_or_else(|| panic!("{entry} is no number"))).collect()
 }
 
-fn lists(value: &Value) -> Vec<Vec<f64>> {
+/// The numbers of a list of lists.
+pub(crate) fn lists(value: &Value) -> Vec<Vec<f64>> {
     value.as_array().unwrap_or_else(|| panic!("{value} is no list")).iter().map(numbers).collect()
 }
 

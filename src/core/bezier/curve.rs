@@ -7,11 +7,29 @@ use glam::DVec2;
 
 use crate::core::bezier::error::BezierError;
 use crate::core::point::Point;
+use crate::core::polynomial::bernstein_from_monomial;
+use crate::core::triangular_scheme::collapse;
 
 /// A polynomial curve over an interval, given by its control polygon.
+///
+/// Affine maps of the control points map the curve, it lies in the convex hull of the control points, begins in the first and
+/// ends in the last one with the tangents `n (c₁ − c₀)/(b − a)` and `n (cₙ − cₙ₋₁)/(b − a)`. P. Bézier 1962, P. de Casteljau 1959.
+///
+/// ```
+/// use glam::DVec2;
+/// use spline_lab::core::bezier::BezierCurve;
+///
+/// let points = [[0.0, 0.0], [1.0, 2.0], [3.0, 2.0], [4.0, 0.0]].map(DVec2::from).to_vec();
+/// let curve = BezierCurve::new(points)?;
+/// assert_eq!(curve.evaluate(0.5)?, DVec2::new(2.0, 1.5));
+/// assert_eq!(curve.derivatives(0.25, 1)?[1], DVec2::new(4.125, 3.0));
+/// let (left, right) = curve.split(0.25)?;
+/// assert_eq!(left.points()[3], right.points()[0]);
+/// # Ok::<(), spline_lab::core::bezier::BezierError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct BezierCurve<P> {
-    points: Vec<P>,
+    pub(super) points: Vec<P>,
     interval: (f64, f64),
 }
 
@@ -56,19 +74,7 @@ impl<P: Point> BezierCurve<P> {
     ///
     /// As [`Self::new`].
     pub fn from_monomial(coefficients: &[P]) -> Result<Self, BezierError> {
-        let count = coefficients.len();
-        let point = |k: usize| {
-            let mut ratio = 1.0;
-            let mut sum = P::ZERO;
-            for (j, &coefficient) in coefficients.iter().enumerate().take(k + 1) {
-                sum = sum + coefficient * ratio;
-                if j + 1 < count {
-                    ratio *= (k - j) as f64 / (count - 1 - j) as f64;
-                }
-            }
-            sum
-        };
-        Self::new((0..count).map(point).collect())
+        Self::new(bernstein_from_monomial(coefficients, (0.0, 1.0))?)
     }
 
     /// The control points, at least one.
@@ -93,13 +99,44 @@ impl<P: Point> BezierCurve<P> {
     /// `NonFinite`.
     pub fn evaluate(&self, x: f64) -> Result<P, BezierError> {
         let t = self.local_parameter(x)?;
-        let mut points = self.points.clone();
-        for count in (1..points.len()).rev() {
-            for j in 0..count {
-                points[j] = points[j].mix(points[j + 1], t);
-            }
+        Ok(collapse(&mut self.points.clone(), t))
+    }
+
+    /// Writes the points at the parameters `xs` into `values`; one allocation for all of them.
+    ///
+    /// # Errors
+    ///
+    /// `SizeMismatch` unless there is a place for each parameter; `NonFinite` with the index of the parameter.
+    pub fn write_values(&self, xs: &[f64], values: &mut [P]) -> Result<(), BezierError> {
+        let (expected, found) = (xs.len(), values.len());
+        if expected != found {
+            return Err(BezierError::SizeMismatch { what: "places for values", expected, found });
         }
-        Ok(points[0])
+        let mut scratch = self.points.clone();
+        for (index, (&x, value)) in xs.iter().zip(values).enumerate() {
+            let t = self.local_parameter(x).map_err(|_| BezierError::NonFinite {
+                what: "parameter",
+                index,
+                value: x,
+            })?;
+            scratch.copy_from_slice(&self.points);
+            *value = collapse(&mut scratch, t);
+        }
+        Ok(())
+    }
+
+    /// The curve with every control point mapped; an affine map maps every point of the curve alike.
+    ///
+    /// # Errors
+    ///
+    /// `NonFinite` with the index of the first control point that is mapped to no point.
+    pub fn transformed<Q: Point>(&self, map: impl Fn(P) -> Q) -> Result<BezierCurve<Q>, BezierError> {
+        BezierCurve::on_interval(self.points.iter().map(|&point| map(point)).collect(), self.interval)
+    }
+
+    /// Largest difference of a coordinate of two control points: the size that tolerances refer to.
+    pub fn extent(&self) -> f64 {
+        self.polygon_box().into_iter().map(|(low, high)| high - low).fold(0.0, f64::max)
     }
 
     /// Coefficients of `1, t, t², …` with `t = (x − a)/(b − a)`: `C(n,j) Δʲc₀`.

@@ -5,6 +5,7 @@
 use crate::core::bezier::curve::BezierCurve;
 use crate::core::bezier::error::BezierError;
 use crate::core::point::Point;
+use crate::core::polynomial::elevate;
 
 /// A curve of one degree less, with a bound of the difference.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,13 +20,14 @@ impl<P: Point> BezierCurve<P> {
     /// The same curve with one control point more.
     #[must_use]
     pub fn elevate_degree(&self) -> Self {
-        let (points, count) = (self.points(), self.points().len());
-        let raised = |k: usize| match k {
-            0 => points[0],
-            k if k == count => points[count - 1],
-            k => points[k].mix(points[k - 1], k as f64 / count as f64),
-        };
-        self.with_points((0..=count).map(raised).collect())
+        self.elevate_degree_by(1)
+    }
+
+    /// The same curve with `times` control points more; for many the polygons approach the curve like `1/n`.
+    #[must_use]
+    pub fn elevate_degree_by(&self, times: usize) -> Self {
+        let raised = elevate(self.points(), times);
+        self.with_points(raised.expect("convex combinations of finite points are finite"))
     }
 
     /// A curve of degree `n − 1` with the same end points, exact if the leading coefficient is 0.
@@ -34,7 +36,7 @@ impl<P: Point> BezierCurve<P> {
     ///
     /// # Errors
     ///
-    /// `Empty` for degree 0.
+    /// `Empty` for degree 0; `NonFinite` where a control point overflows.
     pub fn reduce_degree(&self) -> Result<BezierReduction<P>, BezierError> {
         let (points, n) = (self.points(), self.degree());
         if n == 0 {
@@ -52,7 +54,7 @@ impl<P: Point> BezierCurve<P> {
             let next = if k + 1 == n { P::ZERO } else { reduced[k + 1] };
             reduced[k] = (points[k + 1] - next * (1.0 - share)) * share.recip();
         }
-        let curve = self.with_points(reduced);
+        let curve = Self::on_interval(reduced, self.interval())?;
         let raised = curve.elevate_degree();
         let bound = raised.points().iter().zip(points).map(|(&a, &b)| (a - b).norm()).fold(0.0, f64::max);
         Ok(BezierReduction { curve, bound })

@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::core::polynomial::PolynomialError;
+
 /// Errors of Bezier curves. [`BezierError::name`] gives the name used in the course's conventions.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum BezierError {
@@ -39,6 +41,59 @@ pub enum BezierError {
         /// Right end.
         right: f64,
     },
+    /// A parameter lies outside its admissible interval.
+    #[error("{what} {value} lies outside [{left}, {right}]")]
+    OutsideInterval {
+        /// What kind of parameter.
+        what: &'static str,
+        /// The parameter.
+        value: f64,
+        /// Left end.
+        left: f64,
+        /// Right end.
+        right: f64,
+    },
+    /// A geometric quantity is undefined.
+    #[error("{what} is undefined at {parameter}")]
+    Degenerate {
+        /// What is undefined.
+        what: &'static str,
+        /// Parameter, or value that makes it so.
+        parameter: f64,
+    },
+    /// A tolerance is not positive.
+    #[error("the tolerance is {value}; it must be positive")]
+    InvalidTolerance {
+        /// The tolerance.
+        value: f64,
+    },
+    /// A direction is no unit vector.
+    #[error("direction {index} has the length {length}, not 1")]
+    DirectionNotUnit {
+        /// Which direction.
+        index: usize,
+        /// Its length.
+        length: f64,
+    },
+    /// The data contradict each other.
+    #[error("no solution: {reason}")]
+    NoSolution {
+        /// Why.
+        reason: &'static str,
+    },
+    /// More steps, levels or pieces would be needed than are allowed.
+    #[error("{what} would need {value}, the limit is {limit}")]
+    StepLimit {
+        /// What was counted.
+        what: &'static str,
+        /// How many would be needed, or were needed so far.
+        value: usize,
+        /// The limit.
+        limit: usize,
+    },
+    /// An error of the coefficients of a polynomial.
+    #[error(transparent)]
+    Polynomial(#[from] PolynomialError),
 }
 
 impl BezierError {
@@ -49,6 +104,21 @@ impl BezierError {
             Self::SizeMismatch { .. } => "SizeMismatch",
             Self::NonFinite { .. } => "NonFinite",
             Self::EmptyInterval { .. } => "EmptyInterval",
+            Self::OutsideInterval { .. } => "OutsideInterval",
+            Self::Degenerate { .. } => "Degenerate",
+            Self::InvalidTolerance { .. } => "InvalidTolerance",
+            Self::DirectionNotUnit { .. } => "DirectionNotUnit",
+            Self::NoSolution { .. } => "NoSolution",
+            Self::StepLimit { .. } => "StepLimit",
+            Self::Polynomial(error) => error.name(),
         }
     }
+}
+
+/// `InvalidTolerance` unless the tolerance is positive.
+pub(super) fn check_tolerance(tolerance: f64) -> Result<(), BezierError> {
+    if tolerance.is_nan() || tolerance <= 0.0 {
+        return Err(BezierError::InvalidTolerance { value: tolerance });
+    }
+    Ok(())
 }

@@ -178,7 +178,7 @@ fn falling_ramp(knots: &[f64], n: usize, k: usize, x: f64) -> f64 {
     if width > 0.0 { (knots[k + n] - x) / width } else { 0.0 }
 }
 
-fn check_knots(degree: usize, knots: &[f64]) -> Result<(), SplineError> {
+pub(super) fn check_knots(degree: usize, knots: &[f64]) -> Result<(), SplineError> {
     if knots.len() != degree + 2 {
         let (expected, found) = (degree + 2, knots.len());
         return Err(SplineError::SizeMismatch { what: "knots", expected, found });

@@ -4,7 +4,7 @@
 //! Course: sections 4.2 and 4.5.
 
 use crate::core::bspline::error::{Side, SplineError};
-use crate::core::bspline::space::SplineSpace;
+use crate::core::bspline::space::{MAX_DEGREE, SplineSpace, check_nondecreasing};
 use crate::core::bspline::spline::Spline;
 use crate::core::point::Point;
 
@@ -19,6 +19,51 @@ pub struct BSplineSum<P> {
 }
 
 impl<P: Point> BSplineSum<P> {
+    /// The sum with the given coefficients over `knots`, `degree + 1` more than coefficients and in nondecreasing order.
+    ///
+    /// # Errors
+    ///
+    /// `Empty`, `StepLimit` for the degree, `SizeMismatch`, `NonFinite`, `KnotsDecreasing`; `KnotsNotRegular` if `[ξₙ, ξₘ]` is empty.
+    pub fn new(degree: usize, knots: Vec<f64>, coefficients: Vec<P>) -> Result<Self, SplineError> {
+        let m = coefficients.len();
+        if m == 0 {
+            return Err(SplineError::Empty { what: "coefficients" });
+        }
+        if degree > MAX_DEGREE {
+            return Err(SplineError::StepLimit { what: "degree", value: degree, limit: MAX_DEGREE });
+        }
+        if knots.len() != m + degree + 1 {
+            let (expected, found) = (m + degree + 1, knots.len());
+            return Err(SplineError::SizeMismatch { what: "knots", expected, found });
+        }
+        check_nondecreasing(&knots)?;
+        if let Some(index) = coefficients.iter().position(|point| !point.is_finite()) {
+            return Err(SplineError::NonFinite { what: "coefficient", index, value: f64::NAN });
+        }
+        if m <= degree || knots[degree] >= knots[m] {
+            let value = knots[degree.min(m)];
+            return Err(SplineError::KnotsNotRegular { side: None, value, dimension: m, degree });
+        }
+        Ok(Self { degree, knots, coefficients })
+    }
+
+    /// The derivative, of degree `n − 1`; zero of degree 0 if this is a sum of degree 0. A B-spline with empty support gets
+    /// the coefficient 0.
+    #[must_use]
+    pub fn derivative(&self) -> Self {
+        let (n, m, knots) = (self.degree, self.coefficients.len(), &self.knots);
+        if n == 0 {
+            return Self { degree: 0, knots: knots.clone(), coefficients: vec![P::ZERO; m] };
+        }
+        let difference = |k: usize| {
+            let width = knots[k + n] - knots[k];
+            let step = self.coefficients[k] - self.coefficients[k - 1];
+            if width > 0.0 { step * (n as f64 / width) } else { P::ZERO }
+        };
+        let coefficients = (1..m).map(difference).collect();
+        Self { degree: n - 1, knots: knots[1..knots.len() - 1].to_vec(), coefficients }
+    }
+
     /// The sum with the given parts: `degree + 1` more nondecreasing knots than coefficients, the caller's duty.
     pub(crate) fn from_parts(degree: usize, knots: Vec<f64>, coefficients: Vec<P>) -> Self {
         Self { degree, knots, coefficients }
@@ -78,18 +123,11 @@ impl<P: Point> Spline<P> {
     ///
     /// The coefficient of a B-spline with empty support is 0.
     pub fn derivative_sum(&self) -> BSplineSum<P> {
-        let (n, space) = (self.degree(), self.space());
-        let (knots, m) = (space.evaluation_knots(), space.evaluation_dimension());
-        let difference = |k: usize| {
-            let width = knots[k + n] - knots[k];
-            let step = self.evaluation_coefficient(k) - self.evaluation_coefficient(k - 1);
-            if width > 0.0 { step * (n as f64 / width) } else { P::ZERO }
-        };
-        BSplineSum {
-            degree: n - 1,
-            knots: knots[1..knots.len() - 1].to_vec(),
-            coefficients: (1..m).map(difference).collect(),
-        }
+        let space = self.space();
+        let coefficients =
+            (0..space.evaluation_dimension()).map(|k| self.evaluation_coefficient(k)).collect();
+        BSplineSum { degree: self.degree(), knots: space.evaluation_knots().to_vec(), coefficients }
+            .derivative()
     }
 
     /// The derivative as a spline of degree `n − 1`, periodic if this one is.

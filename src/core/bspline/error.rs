@@ -107,6 +107,14 @@ pub enum SplineError {
         /// Right end.
         right: f64,
     },
+    /// An interval without length.
+    #[error("the interval from {left} to {right} is empty")]
+    EmptyInterval {
+        /// Its start.
+        left: f64,
+        /// Its end, not behind the start.
+        right: f64,
+    },
     /// A weight is not positive.
     #[error("weight {index} is {value}; weights must be positive")]
     WeightNotPositive {
@@ -135,6 +143,32 @@ pub enum SplineError {
         /// The parameter.
         parameter: f64,
     },
+    /// A polynomial has a higher degree than the spline.
+    #[error("a polynomial of degree {degree} does not fit splines of degree {limit}")]
+    DegreeTooHigh {
+        /// Degree of the polynomial.
+        degree: usize,
+        /// Degree of the splines.
+        limit: usize,
+    },
+    /// Knots that must be equally spaced are not.
+    #[error("knot {index} is {value}; equal spacing asks for {expected}")]
+    KnotsNotUniform {
+        /// Index of the first knot that is off.
+        index: usize,
+        /// The knot.
+        value: f64,
+        /// Where it should be.
+        expected: f64,
+    },
+    /// The end of one curve is not the start of the next.
+    #[error("curve {index} starts {distance} away from the end of the one before")]
+    BoundaryMismatch {
+        /// Index of the later curve.
+        index: usize,
+        /// Distance of the two ends, in space or of the parameters.
+        distance: f64,
+    },
     /// A tolerance is not positive.
     #[error("the tolerance is {value}; it must be positive")]
     InvalidTolerance {
@@ -157,10 +191,14 @@ impl SplineError {
             Self::KnotsNotRegular { .. } => "KnotsNotRegular",
             Self::PeriodTooShort { .. } => "PeriodTooShort",
             Self::OutsideInterval { .. } => "OutsideInterval",
+            Self::EmptyInterval { .. } => "EmptyInterval",
             Self::WeightNotPositive { .. } => "WeightNotPositive",
             Self::NotInSpace { .. } => "NotInSpace",
             Self::NoSolution { .. } => "NoSolution",
             Self::Degenerate { .. } => "Degenerate",
+            Self::DegreeTooHigh { .. } => "DegreeTooHigh",
+            Self::KnotsNotUniform { .. } => "KnotsNotUniform",
+            Self::BoundaryMismatch { .. } => "BoundaryMismatch",
             Self::InvalidTolerance { .. } => "InvalidTolerance",
         }
     }

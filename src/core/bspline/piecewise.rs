@@ -54,8 +54,7 @@ impl<P: Point> Spline<P> {
             let (low, high) = space.support(k);
             let first = breaks.partition_point(|&x| x <= low).saturating_sub(1);
             let after = breaks.partition_point(|&x| x < high).min(pieces.len());
-            let values: Vec<P> =
-                pieces[first..after].iter().map(|piece| blossom(piece, n, arguments)).collect();
+            let values: Vec<P> = pieces[first..after].iter().map(|piece| piece.blossom(arguments)).collect();
             let value = values[values.len() / 2];
             let scale = pieces[first..after]
                 .iter()
@@ -104,25 +103,6 @@ impl<P: Point> Spline<P> {
         let coefficients = (0..space.dimension()).map(coefficient).collect::<Result<_, _>>()?;
         Self::new(space, coefficients)
     }
-}
-
-/// The blossom of a polynomial of degree at most `n` at `n` arguments.
-fn blossom<P: Point>(piece: &PolynomialPiece<P>, n: usize, arguments: &[f64]) -> P {
-    // symmetric[j] is the elementary symmetric polynomial of order j, divided by C(n, j) at the end.
-    let mut symmetric = vec![0.0; n + 1];
-    symmetric[0] = 1.0;
-    for (count, argument) in arguments.iter().enumerate() {
-        for j in (1..=count + 1).rev() {
-            symmetric[j] += symmetric[j - 1] * (argument - piece.origin);
-        }
-    }
-    let mut binomial = 1.0;
-    let mut sum = P::ZERO;
-    for (j, &coefficient) in piece.coefficients.iter().enumerate() {
-        sum = sum + coefficient * (symmetric[j] / binomial);
-        binomial *= (n - j) as f64 / (j + 1) as f64;
-    }
-    sum
 }
 
 #[cfg(test)]

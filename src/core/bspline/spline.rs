@@ -113,12 +113,18 @@ impl<P: Point> Spline<P> {
     /// `NonFinite`, `OutsideInterval`.
     pub fn derivatives(&self, x: f64, count: usize, side: Side) -> Result<Vec<P>, SplineError> {
         let (span, x) = self.space.span_on_side(x, side)?;
+        let mut values = vec![P::ZERO; count + 1];
+        self.derivatives_in_span(span, x, &mut values);
+        Ok(values)
+    }
+
+    /// As many of `p, p′, …` of the polynomial piece over the knot interval `span` as `values` has room for, at any `x`.
+    pub(super) fn derivatives_in_span(&self, span: usize, x: f64, values: &mut [P]) {
         let (n, knots) = (self.degree(), self.space.evaluation_knots());
         let mut differences = self.local_coefficients(span);
-        let mut values = Vec::with_capacity(count + 1);
-        for order in 0..=count {
+        for (order, value) in values.iter_mut().enumerate() {
             if order > n {
-                values.push(P::ZERO);
+                *value = P::ZERO;
                 continue;
             }
             let degree = n - order;
@@ -133,9 +139,8 @@ impl<P: Point> Spline<P> {
             let mut local = [P::ZERO; MAX_DEGREE + 1];
             local[..=degree].copy_from_slice(&differences[order..=n]);
             de_boor(knots, degree, span, x, &mut local);
-            values.push(local[degree]);
+            *value = local[degree];
         }
-        Ok(values)
     }
 
     /// De Boor's scheme at `x` with all intermediate points and factors γ.

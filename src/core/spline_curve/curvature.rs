@@ -5,41 +5,9 @@
 
 use glam::DVec2;
 
+pub use crate::core::bezier::{Frame, OsculatingCircle};
 use crate::core::bspline::{Side, SplineError};
 use crate::core::spline_curve::Nurbs;
-
-/// Point, directions and curvature of a plane curve at one parameter.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Frame {
-    /// `r(t)`.
-    pub point: DVec2,
-    /// Unit tangent `r′/|r′|`.
-    pub tangent: DVec2,
-    /// Unit normal, the tangent turned left by 90 degrees.
-    pub normal: DVec2,
-    /// Signed curvature, 1/length.
-    pub curvature: f64,
-    /// `|r′|`, length per parameter.
-    pub speed: f64,
-}
-
-/// The circle that touches a curve to second order.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct OsculatingCircle {
-    /// The centre, on the normal.
-    pub center: DVec2,
-    /// The radius `1/|κ|`.
-    pub radius: f64,
-}
-
-impl Frame {
-    /// The osculating circle; `None` where the curvature is 0, or so small that the radius overflows.
-    pub fn osculating_circle(&self) -> Option<OsculatingCircle> {
-        let radius = self.curvature.recip();
-        let center = self.point + self.normal * radius;
-        center.is_finite().then_some(OsculatingCircle { center, radius: radius.abs() })
-    }
-}
 
 impl Nurbs<DVec2> {
     /// Point, unit tangent and normal, curvature and speed; the limits from `side` at a knot.
@@ -49,15 +17,8 @@ impl Nurbs<DVec2> {
     /// `NonFinite`, `OutsideInterval`; `Degenerate` where the speed is 0.
     pub fn frame(&self, t: f64, side: Side) -> Result<Frame, SplineError> {
         let derivatives = self.derivatives(t, 2, side)?;
-        let (point, velocity, second) = (derivatives[0], derivatives[1], derivatives[2]);
-        let speed = velocity.x.hypot(velocity.y);
-        if speed <= 0.0 || !speed.is_finite() {
-            return Err(SplineError::Degenerate { what: "the tangent", parameter: t });
-        }
-        let tangent = velocity / speed;
-        // Dividing step by step: |r′|³ under- and overflows long before the curvature does.
-        let curvature = tangent.perp_dot(second) / speed / speed;
-        Ok(Frame { point, tangent, normal: tangent.perp(), curvature, speed })
+        Frame::from_derivatives([derivatives[0], derivatives[1], derivatives[2]])
+            .ok_or(SplineError::Degenerate { what: "the tangent", parameter: t })
     }
 
     /// Signed curvature, positive in left turns; the limit from `side` at a knot.

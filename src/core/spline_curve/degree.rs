@@ -1,31 +1,18 @@
-//! Degree elevation, which keeps the curve, and degree reduction with its certified deviation.
+//! Degree elevation, which keeps the curve.
 //!
-//! Elevation raises every multiplicity in D by one; the new coefficients are means of blossom values (Prautzsch, 1984),
+//! It raises every multiplicity in D by one; the new coefficients are means of blossom values,
 //!
 //! ```text
 //! c′ₖ = 1/(n+1) Σᵢ P[τ′ₖ₊₁, …, τ′ₖ₊ₙ₊₁ without τ′ₖ₊ᵢ].
 //! ```
 //!
-//! Reduction interpolates at the Greville abscissae of the space of degree `n − 1` with the same breaks and multiplicities one lower
-//! (at least 1); it gives an elevated curve back and keeps the ends. A closed curve is reduced by least squares at `n + 1` points of
-//! every interval. Course: beyond, section B.1.
+//! H. Prautzsch, *Degree elevation of B-spline curves*, 1984. Course: beyond, section B.1.
 
 use crate::core::bspline::{MAX_DEGREE, Spline, SplineError, SplineSpace};
+use crate::core::linear_system::BandMatrix;
 use crate::core::point::Point;
 use crate::core::rational_bezier::Projective;
-use crate::core::spline_curve::{Deviation, Nurbs, deviation};
-
-/// Above this many unknowns the dense system of a closed reduction would take too long.
-const MAX_CLOSED_UNKNOWNS: usize = 1000;
-
-/// A curve of one degree less, and how far it is from the one before.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DegreeReduction<P: Projective> {
-    /// The curve of degree `n − 1`.
-    pub curve: Nurbs<P>,
-    /// Its deviation from the curve of degree `n`.
-    pub deviation: Deviation,
-}
+use crate::core::spline_curve::Nurbs;
 
 impl<P: Point> Spline<P> {
     /// The same spline as one of degree `n + 1`. An open one gets end-interpolating knots.
@@ -35,9 +22,7 @@ impl<P: Point> Spline<P> {
     /// `StepLimit` above [`MAX_DEGREE`].
     pub fn elevate_degree(&self) -> Result<Self, SplineError> {
         let n = self.degree();
-        if n >= MAX_DEGREE {
-            return Err(SplineError::StepLimit { what: "degree", value: n + 1, limit: MAX_DEGREE });
-        }
+        check_raised(n, 1)?;
         let raised = match self.space().period() {
             Some(period) => {
                 let mut knots = Vec::new();
@@ -50,6 +35,16 @@ impl<P: Point> Spline<P> {
         };
         let coefficients = (0..raised.dimension()).map(|k| self.elevated_coefficient(&raised, k)).collect();
         Self::new(raised, coefficients)
+    }
+
+    /// The same spline as one of degree `n + by`.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::elevate_degree`].
+    pub fn elevate_degree_by(&self, by: usize) -> Result<Self, SplineError> {
+        check_raised(self.degree(), by)?;
+        (0..by).try_fold(self.clone(), |spline, _| spline.elevate_degree())
     }
 
     fn elevated_coefficient(&self, raised: &SplineSpace, k: usize) -> P {
@@ -67,150 +62,6 @@ impl<P: Point> Spline<P> {
         }
         sum * ((n + 1) as f64).recip()
     }
-
-    /// The blossom of the polynomial piece of the knot interval `span` at `n` arguments.
-    fn blossom_in_span(&self, span: usize, arguments: impl Iterator<Item = f64>) -> P {
-        let (n, knots) = (self.degree(), self.space().evaluation_knots());
-        let mut row = [P::ZERO; MAX_DEGREE + 1];
-        for (j, slot) in row[..=n].iter_mut().enumerate() {
-            *slot = self.evaluation_coefficient(span - n + j);
-        }
-        for (step, argument) in arguments.enumerate() {
-            for j in (step + 1..=n).rev() {
-                let k = span + j - n;
-                row[j] = row[j - 1].mix(row[j], (argument - knots[k]) / (knots[k + n - step] - knots[k]));
-            }
-        }
-        row[n]
-    }
-
-    /// A spline of degree `n − 1` near this one; see the head of this file.
-    ///
-    /// # Errors
-    ///
-    /// `DegreeZero` for degree 1; `StepLimit` for a closed spline with more than 1000 unknowns.
-    pub fn reduce_degree(&self) -> Result<Self, SplineError> {
-        let n = self.degree();
-        if n <= 1 {
-            return Err(SplineError::DegreeZero);
-        }
-        match self.space().period() {
-            Some(period) => self.reduce_closed(period),
-            None => self.interpolate_in(clamped_space(self.space(), n - 1, |multiplicity| {
-                (multiplicity - 1).max(1)
-            })?),
-        }
-    }
-
-    /// The spline of `space`, whose ends interpolate, that agrees with this one at the Greville abscissae.
-    fn interpolate_in(&self, space: SplineSpace) -> Result<Self, SplineError> {
-        let (left, right) = self.space().parameter_interval();
-        let sites: Vec<f64> =
-            space.greville_abscissae().into_iter().map(|site| site.clamp(left, right)).collect();
-        let mut right_side = sites.iter().map(|&site| self.evaluate(site)).collect::<Result<Vec<P>, _>>()?;
-        let (n, m) = (space.degree(), space.dimension());
-        let mut rows = Vec::with_capacity(m);
-        for &site in &sites {
-            rows.push(basis_row(&space, site)?);
-        }
-        // Gauss without pivoting: the collocation matrix is totally positive (de Boor and Pinkus, 1977). Row i holds the columns
-        // first … first + n; elimination with row i touches the rows below that still reach column i.
-        for i in 0..m {
-            let (pivot_first, pivot_row) = rows[i].clone();
-            let pivot = pivot_row.get(i.wrapping_sub(pivot_first)).copied().unwrap_or(0.0);
-            if pivot.abs() < 1e-300 {
-                return Err(SplineError::NoSolution {
-                    reason: format!("the system is singular at site {i}"),
-                });
-            }
-            for below in i + 1..m.min(i + n + 1) {
-                let (first, row) = &mut rows[below];
-                if *first > i {
-                    continue;
-                }
-                let factor = row[i - *first] / pivot;
-                for (offset, &value) in pivot_row.iter().enumerate().skip(i - pivot_first) {
-                    let column = pivot_first + offset;
-                    // Sorted sites: a row below reaches at least as far to the right as the rows above.
-                    if column - *first < row.len() {
-                        row[column - *first] -= factor * value;
-                    }
-                }
-                let change = right_side[i] * factor;
-                right_side[below] = right_side[below] - change;
-            }
-        }
-        for i in (0..m).rev() {
-            let (first, row) = &rows[i];
-            let mut value = right_side[i];
-            for (offset, &entry) in row.iter().enumerate() {
-                let column = first + offset;
-                if column > i {
-                    value = value - right_side[column] * entry;
-                }
-            }
-            right_side[i] = value * row[i - first].recip();
-        }
-        Self::new(space, right_side)
-    }
-
-    /// Least squares over one period, by the normal equations of a small dense system.
-    fn reduce_closed(&self, period: f64) -> Result<Self, SplineError> {
-        let n = self.degree();
-        let mut knots = Vec::new();
-        for knot in self.space().distinct_knots() {
-            knots.extend(std::iter::repeat_n(knot.value, (knot.multiplicity - 1).max(1)));
-        }
-        let space = SplineSpace::periodic(n - 1, period, knots)?;
-        let m = space.dimension();
-        if m > MAX_CLOSED_UNKNOWNS {
-            return Err(SplineError::StepLimit {
-                what: "number of control points",
-                value: m,
-                limit: MAX_CLOSED_UNKNOWNS,
-            });
-        }
-        let mut matrix = vec![vec![0.0; m]; m];
-        let mut right_side = vec![P::ZERO; m];
-        for pair in self.space().breaks().windows(2) {
-            let samples = 2 * n;
-            for step in 0..samples {
-                let site = pair[0] + (pair[1] - pair[0]) * (step as f64 + 0.5) / samples as f64;
-                let weight = pair[1] - pair[0];
-                let value = self.evaluate(site)?;
-                let (first, row) = basis_row(&space, site)?;
-                for (i, &a) in row.iter().enumerate() {
-                    let at = space.coefficient_index(first + i);
-                    right_side[at] = right_side[at] + value * (a * weight);
-                    for (j, &b) in row.iter().enumerate() {
-                        matrix[at][space.coefficient_index(first + j)] += a * b * weight;
-                    }
-                }
-            }
-        }
-        for i in 0..m {
-            for below in i + 1..m {
-                let factor = matrix[below][i] / matrix[i][i];
-                if factor == 0.0 {
-                    continue;
-                }
-                for column in i..m {
-                    let entry = matrix[i][column];
-                    matrix[below][column] -= factor * entry;
-                }
-                let change = right_side[i] * factor;
-                right_side[below] = right_side[below] - change;
-            }
-        }
-        for i in (0..m).rev() {
-            let mut value = right_side[i];
-            for column in i + 1..m {
-                value = value - right_side[column] * matrix[i][column];
-            }
-            right_side[i] = value * matrix[i][i].recip();
-        }
-        Self::new(space, right_side)
-    }
 }
 
 impl<P: Projective> Nurbs<P> {
@@ -223,20 +74,63 @@ impl<P: Projective> Nurbs<P> {
         self.mapped(Spline::elevate_degree, Spline::elevate_degree)
     }
 
-    /// A curve of degree `n − 1` near this one, with the deviation; see [`Spline::reduce_degree`].
+    /// The same curve as one of degree `n + by`; see [`Spline::elevate_degree_by`].
     ///
     /// # Errors
     ///
-    /// Those of [`Spline::reduce_degree`]; `WeightNotPositive` if the weights of a rational curve cannot be reduced.
-    pub fn reduce_degree(&self) -> Result<DegreeReduction<P>, SplineError> {
-        let curve = self.mapped(Spline::reduce_degree, Spline::reduce_degree)?;
-        let deviation = deviation(self, &curve)?;
-        Ok(DegreeReduction { curve, deviation })
+    /// Those of [`Spline::elevate_degree_by`].
+    pub fn elevate_degree_by(&self, by: usize) -> Result<Self, SplineError> {
+        self.mapped(|spline| spline.elevate_degree_by(by), |spline| spline.elevate_degree_by(by))
     }
 }
 
+fn check_raised(degree: usize, by: usize) -> Result<(), SplineError> {
+    let value = degree.saturating_add(by);
+    if value <= MAX_DEGREE {
+        Ok(())
+    } else {
+        Err(SplineError::StepLimit { what: "degree", value, limit: MAX_DEGREE })
+    }
+}
+
+/// The matrix of [`Spline::elevate_degree`] for the splines of an open space: row `j` holds the shares of the old coefficients in the
+/// new coefficient `j`, not negative and with sum 1.
+///
+/// # Errors
+///
+/// Those of [`Spline::elevate_degree`]; `NotInSpace` for a periodic space.
+pub fn elevation_matrix(space: &SplineSpace) -> Result<BandMatrix, SplineError> {
+    if space.is_periodic() {
+        let reason = "the matrix is for open spaces; unroll periodic ones".to_owned();
+        return Err(SplineError::NotInSpace { reason });
+    }
+    let (m, width) = (space.dimension(), (2 * space.degree() + 1).min(space.dimension()));
+    // Columns that are `width` apart share no row: one spline carries the shares of all of them.
+    let mut carried = Vec::with_capacity(width);
+    for phase in 0..width {
+        let unit = (0..m).map(|k| f64::from(u8::from(k % width == phase))).collect();
+        carried.push(Spline::new(space.clone(), unit)?.elevate_degree()?);
+    }
+    let raised = carried[0].space();
+    let mut matrix = BandMatrix::with_capacity(raised.dimension(), m, width);
+    let mut least = 0;
+    for j in 0..raised.dimension() {
+        // The old B-splines around the middle of the new one.
+        let (low, high) = raised.support(j);
+        let (left, right) = space.parameter_interval();
+        let span = space.span(low.mix(high, 0.5).clamp(left, right))?;
+        let first = (span + 1).saturating_sub(space.degree() + width.div_ceil(2)).clamp(least, m - width);
+        least = first;
+        let row: Vec<f64> = (first..first + width).map(|k| carried[k % width].coefficients()[j]).collect();
+        matrix
+            .push_row(first, &row)
+            .map_err(|error| SplineError::NotInSpace { reason: error.to_string() })?;
+    }
+    Ok(matrix)
+}
+
 /// End-interpolating knots of `degree` over the breaks of an open space, inner multiplicities changed by `change`.
-fn clamped_space(
+pub(super) fn clamped_space(
     space: &SplineSpace,
     degree: usize,
     change: impl Fn(usize) -> usize,
@@ -253,30 +147,68 @@ fn clamped_space(
     SplineSpace::new(degree, knots)
 }
 
-/// The `n + 1` B-splines of the evaluation knots that can be nonzero at `x`, and the index of the first.
-fn basis_row(space: &SplineSpace, x: f64) -> Result<(usize, Vec<f64>), SplineError> {
-    let x = space.reduce(x)?;
-    let (span, n, knots) = (space.span(x)?, space.degree(), space.evaluation_knots());
-    let mut values = vec![1.0];
-    for degree in 1..=n {
-        let mut raised = vec![0.0; degree + 1];
-        for (j, &value) in values.iter().enumerate() {
-            let k = span + 1 - degree + j;
-            let gamma = (x - knots[k]) / (knots[k + degree] - knots[k]);
-            raised[j] += (1.0 - gamma) * value;
-            raised[j + 1] += gamma * value;
-        }
-        values = raised;
-    }
-    Ok((span - n, values))
-}
-
 #[cfg(test)]
 mod tests {
     use glam::DVec2;
 
     use super::*;
     use crate::core::bspline::Side;
+    use crate::core::spline_curve::samples::{any_curve, any_spline, distance};
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn curves_of_every_kind_stay(curve in any_curve(1..=24)) {
+            let raised = curve.elevate_degree().unwrap();
+            let error = distance(&curve, &raised);
+            prop_assert!(error < 1e-10, "degree {}: off by {error}", curve.degree());
+            prop_assert!(raised.weights().iter().all(|&weight| weight > 0.0), "positive weights stay positive");
+        }
+
+        #[test]
+        fn one_sided_limits_stay_and_twice_is_by_two(spline in any_spline(1..=6), at in 0.0..1.0_f64, at_knot in any::<bool>()) {
+            let raised = spline.elevate_degree().unwrap();
+            let (left, right) = spline.space().parameter_interval();
+            let t = if at_knot { left.mix(right, at).floor().max(left) } else { left.mix(right, at) };
+            for side in [Side::Left, Side::Right] {
+                let (a, b) = (spline.derivatives(t, 2, side).unwrap(), raised.derivatives(t, 2, side).unwrap());
+                for (order, (a, b)) in a.iter().zip(&b).enumerate() {
+                    prop_assert!(a.distance(*b) < 1e-8 * a.length().max(10.0), "order {order} at {t} {side:?}: {a}, {b}");
+                }
+            }
+            prop_assert_eq!(raised.elevate_degree().unwrap(), spline.elevate_degree_by(2).unwrap(), "twice");
+        }
+
+        #[test]
+        fn rows_of_the_matrix_are_convex_and_elevate(spline in any_spline(1..=6)) {
+            let spline = spline.unroll().unwrap();
+            let matrix = elevation_matrix(spline.space()).unwrap();
+            let expected = spline.elevate_degree().unwrap();
+            for i in 0..matrix.rows() {
+                let (_, row) = matrix.row(i);
+                prop_assert!((row.iter().sum::<f64>() - 1.0).abs() < 1e-12, "row {i}: {row:?}");
+                prop_assert!(row.iter().all(|&entry| entry > -1e-12), "row {i}: {row:?}");
+            }
+            for (a, b) in matrix.multiply(spline.coefficients()).unwrap().iter().zip(expected.coefficients()) {
+                prop_assert!(a.distance(*b) < 1e-10, "{a} and {b}");
+            }
+        }
+    }
+
+    #[test]
+    fn polygons_of_repeated_elevation_approach_the_curve() {
+        let space = SplineSpace::new(3, vec![-1.0, 0.0, 0.0, 0.0, 1.0, 2.0, 2.0, 2.0, 3.0]).unwrap();
+        let spline = Spline::new(space, vec![0.0, 3.0, -2.0, 4.0, 1.0]).unwrap();
+        let bounds: Vec<f64> = [0, 4, 11]
+            .map(|by| {
+                let raised = spline.elevate_degree_by(by).unwrap();
+                raised.polygon_distances().unwrap().iter().map(|d| d.measured).fold(0.0, f64::max)
+            })
+            .to_vec();
+        // Degrees 3, 7, 14: like 1/n.
+        assert!((1.5..3.5).contains(&(bounds[1] / bounds[2])), "{bounds:?}");
+        assert_eq!(spline.elevate_degree_by(23).unwrap_err().name(), "StepLimit", "degree 26");
+    }
 
     fn points(list: &[(f64, f64)]) -> Vec<DVec2> {
         list.iter().map(|&(x, y)| DVec2::new(x, y)).collect()
@@ -343,25 +275,6 @@ mod tests {
                     (a[0] - b[0]).abs() < 1e-11 && (a[1] - b[1]).abs() < 1e-9,
                     "degree {n}, x = {x}: {a:?} {b:?}"
                 );
-            }
-        }
-    }
-
-    #[test]
-    fn reduction_gives_an_elevated_curve_back() {
-        for closed in [false, true] {
-            let control = points(&[(0.0, 0.0), (1.0, 2.0), (3.0, 2.0), (4.0, 0.0), (2.0, -3.0)]);
-            let space = if closed {
-                SplineSpace::periodic(3, 5.0, vec![0.0, 1.0, 2.0, 3.0, 4.5]).unwrap()
-            } else {
-                SplineSpace::new(3, vec![-1.0, 0.0, 0.0, 0.0, 0.7, 2.0, 2.0, 2.0, 3.0]).unwrap()
-            };
-            let curve = Nurbs::polynomial(space, control).unwrap();
-            let back = curve.elevate_degree().unwrap().reduce_degree().unwrap();
-            assert!(back.deviation.upper < 1e-12, "closed: {closed}, {:?}", back.deviation);
-            assert_eq!(back.curve.space().dimension(), 5, "closed: {closed}");
-            for (got, expected) in back.curve.points().iter().zip(curve.points()) {
-                assert!(got.distance(*expected) < 1e-11, "closed: {closed}, {got} is not {expected}");
             }
         }
     }

@@ -3,7 +3,7 @@
 //! Both curves in Bezier form over the merged breaks and, piece by piece, the difference in Bernstein form:
 //! `P − Q` of polynomial curves, `(P v − Q w)/(w v)` of rational ones `P/w` and `Q/v`. The largest coefficient (over the
 //! smallest weights) bounds the distance from above, samples bound it from below; the pieces with the largest bound are
-//! halved until both agree to 5 percent. Beyond the course.
+//! halved until both agree to 5 percent. Course: beyond, section B.3.
 
 use std::collections::BinaryHeap;
 
@@ -13,12 +13,10 @@ use crate::core::rational_bezier::Projective;
 use crate::core::spline_curve::Nurbs;
 use crate::core::spline_curve::bezier_form::BezierSegment;
 
-/// Relative gap between both bounds at which the subdivision stops.
-const GAP: f64 = 0.05;
 /// The subdivision also stops here, relative to the size of the curves: below is rounding.
 const NEGLIGIBLE: f64 = 1e-13;
-/// Most halvings per piece, on average.
-const HALVINGS_PER_PIECE: usize = 64;
+/// Steps of the bisection for the largest distance around a sample.
+const SEARCH_STEPS: usize = 53;
 /// Relative difference up to which two parameter intervals count as equal.
 const SAME_INTERVAL: f64 = 1e-12;
 
@@ -33,6 +31,22 @@ pub struct Deviation {
     pub at: f64,
 }
 
+/// When the enclosure is good enough.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DeviationLimits {
+    /// Subdivision stops when `upper ≤ (1 + relative_gap)·lower`.
+    pub relative_gap: f64,
+    /// Most halvings, on average for each common knot interval of both curves; 0 compares the Bezier forms as they are.
+    pub halvings_per_piece: usize,
+}
+
+impl Default for DeviationLimits {
+    /// 5 percent, 64 halvings.
+    fn default() -> Self {
+        Self { relative_gap: 0.05, halvings_per_piece: 64 }
+    }
+}
+
 /// Encloses the largest distance of `p` and `q` at equal parameters; their degrees and knots may differ.
 ///
 /// This depends on the parametrisation: it bounds the distance of the two point sets, but one set with two different
@@ -41,15 +55,45 @@ pub struct Deviation {
 /// # Errors
 ///
 /// `OutsideInterval` (the first end of the interval of `q` that is not that of `p`) if the parameter intervals differ by
-/// more than 1e-12 of their length.
+/// more than 1e-12 of their length. Two closed curves with one period may start at different parameters.
 pub fn deviation<P: Projective>(p: &Nurbs<P>, q: &Nurbs<P>) -> Result<Deviation, SplineError> {
+    deviation_within(p, q, DeviationLimits::default())
+}
+
+/// As [`deviation`], with other limits.
+///
+/// # Errors
+///
+/// As [`deviation`].
+pub fn deviation_within<P: Projective>(
+    p: &Nurbs<P>,
+    q: &Nurbs<P>,
+    limits: DeviationLimits,
+) -> Result<Deviation, SplineError> {
     let (left, right) = p.space().parameter_interval();
+    if let (Some(mine), Some(theirs)) = (p.space().period(), q.space().period())
+        && (mine - theirs).abs() <= SAME_INTERVAL * mine
+        && q.space().parameter_interval().0.to_bits() != left.to_bits()
+    {
+        // A closed curve over the same period that starts elsewhere.
+        return compared(p, &q.trimmed(left, left + theirs)?, limits);
+    }
     let other = q.space().parameter_interval();
     for (mine, theirs) in [(left, other.0), (right, other.1)] {
         if (mine - theirs).abs() > SAME_INTERVAL * (right - left) {
             return Err(SplineError::OutsideInterval { value: theirs, left, right });
         }
     }
+    compared(p, q, limits)
+}
+
+/// As [`deviation_within`], with the interval of `q` mapped to that of `p`.
+fn compared<P: Projective>(
+    p: &Nurbs<P>,
+    q: &Nurbs<P>,
+    limits: DeviationLimits,
+) -> Result<Deviation, SplineError> {
+    let (left, _) = p.space().parameter_interval();
     let centre = p.points()[0];
     let size = p.points().iter().chain(q.points()).map(|&c| (c - centre).norm()).fold(0.0, f64::max);
     let mut heap: BinaryHeap<Piece<P>> = pieces(p, q, centre)?.into();
@@ -59,10 +103,11 @@ pub fn deviation<P: Projective>(p: &Nurbs<P>, q: &Nurbs<P>) -> Result<Deviation,
     }
     let degree = p.degree() + q.degree();
     let rounding = 8.0 * (degree + 1) as f64 * f64::EPSILON * 0.5 * size;
-    let mut halvings = HALVINGS_PER_PIECE * heap.len();
+    let mut halvings = limits.halvings_per_piece.saturating_mul(heap.len());
     while let Some(piece) = heap.peek() {
         found.upper = piece.upper;
-        let enough = piece.upper <= (1.0 + GAP) * found.lower || piece.upper <= NEGLIGIBLE * size;
+        let enough =
+            piece.upper <= (1.0 + limits.relative_gap) * found.lower || piece.upper <= NEGLIGIBLE * size;
         if enough || halvings == 0 {
             break;
         }
@@ -95,17 +140,50 @@ impl<P: Point> Piece<P> {
         Self { interval, numerator, first, second, upper }
     }
 
+    /// Distance at the share `t` of the interval.
+    fn distance(&self, t: f64) -> f64 {
+        let value = de_casteljau(&self.numerator, t).norm();
+        value / (de_casteljau(&self.first, t) * de_casteljau(&self.second, t))
+    }
+
+    /// Raises `found.lower` to the largest distance at equal steps, and from there to the top by bisection on the sign of its slope.
     fn sample(&self, found: &mut Deviation) {
-        let count = 2 * self.numerator.len().min(8);
+        let count = 2 * self.numerator.len().min(16);
+        let mut best = (found.lower, None);
         for i in 0..=count {
             let t = i as f64 / count as f64;
-            let value = de_casteljau(&self.numerator, t).norm();
-            let distance = value / (de_casteljau(&self.first, t) * de_casteljau(&self.second, t));
-            if distance > found.lower {
-                found.lower = distance;
-                found.at = self.interval.0.mix(self.interval.1, t);
+            let distance = self.distance(t);
+            if distance > best.0 {
+                best = (distance, Some(t));
             }
         }
+        let (top, Some(t)) = best else { return };
+        let step = 1.0 / count as f64;
+        let (mut low, mut high) = ((t - step).max(0.0), (t + step).min(1.0));
+        let mut at = t;
+        if self.rises(low) && !self.rises(high) {
+            for _ in 0..SEARCH_STEPS {
+                at = 0.5 * (low + high);
+                if self.rises(at) {
+                    low = at;
+                } else {
+                    high = at;
+                }
+            }
+        }
+        let found_there = self.distance(at);
+        let (distance, place) = if found_there >= top { (found_there, at) } else { (top, t) };
+        found.lower = distance;
+        found.at = self.interval.0.mix(self.interval.1, place);
+    }
+
+    /// Whether the distance grows at `t`: the sign of `N·N′ − |N|² (f′/f + s′/s)` for `N/(f s)`.
+    fn rises(&self, t: f64) -> bool {
+        let ((value, slope), (first, first_slope)) =
+            (with_slope(&self.numerator, t), with_slope(&self.first, t));
+        let (second, second_slope) = with_slope(&self.second, t);
+        let dot = |a: P, b: P| (0..P::DIMENSION).map(|i| a.coordinate(i) * b.coordinate(i)).sum::<f64>();
+        dot(value, slope) > dot(value, value) * (first_slope / first + second_slope / second)
     }
 
     fn halves(self) -> [Self; 2] {
@@ -227,13 +305,21 @@ fn elevated<P: Point>(mut points: Vec<P>, degree: usize) -> Vec<P> {
 }
 
 fn de_casteljau<P: Point>(points: &[P], t: f64) -> P {
+    with_slope(points, t).0
+}
+
+/// Value and derivative.
+fn with_slope<P: Point>(points: &[P], t: f64) -> (P, P) {
     let mut points = points.to_vec();
-    for count in (1..points.len()).rev() {
+    let n = points.len() - 1;
+    let mut slope = P::ZERO;
+    for count in (1..=n).rev() {
+        slope = points[1] - points[0];
         for j in 0..count {
             points[j] = points[j].mix(points[j + 1], t);
         }
     }
-    points[0]
+    (points[0], slope * n as f64)
 }
 
 /// Control points of the left and the right half.
@@ -251,7 +337,54 @@ fn halves<P: Point>(mut points: Vec<P>) -> (Vec<P>, Vec<P>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::core::spline_curve::samples::{any_curve, distance};
     use glam::DVec2;
+    use proptest::prelude::*;
+
+    /// Another curve over the space of the given one: control points turned and pushed.
+    fn other(curve: &Nurbs<DVec2>, push: f64) -> Nurbs<DVec2> {
+        curve.transformed(|p| DVec2::new(p.x - 0.2 * push * p.y, p.y + push)).unwrap()
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+        #[test]
+        fn it_is_symmetric_encloses_samples_and_does_not_see_motions(curve in any_curve(1..=5), push in 0.01..2.0_f64) {
+            let moved = other(&curve, push);
+            let (there, back) = (deviation(&curve, &moved).unwrap(), deviation(&moved, &curve).unwrap());
+            prop_assert!(there.lower <= there.upper, "{there:?}");
+            let sampled = distance(&curve, &moved);
+            prop_assert!(sampled <= there.upper + 1e-13, "{sampled} and {there:?}");
+            prop_assert!(back.lower <= there.upper && there.lower <= back.upper, "{there:?} and {back:?}");
+            let turn = DVec2::from_angle(0.9);
+            let motion = |p: DVec2| turn.rotate(p) + DVec2::new(5.0, -2.0);
+            let far = deviation(&curve.transformed(motion).unwrap(), &moved.transformed(motion).unwrap()).unwrap();
+            prop_assert!(far.lower <= there.upper + 1e-12 && there.lower <= far.upper + 1e-12, "{there:?} and {far:?}");
+        }
+
+        #[test]
+        fn the_triangle_inequality_holds(curve in any_curve(1..=4), push in 0.01..2.0_f64, second in -2.0..-0.01_f64) {
+            let (q, r) = (other(&curve, push), other(&curve, second));
+            let [a, b, c] = [(&curve, &q), (&q, &r), (&curve, &r)].map(|(a, b)| deviation(a, b).unwrap());
+            prop_assert!(c.lower <= a.upper + b.upper, "{a:?}, {b:?}, {c:?}");
+        }
+
+        #[test]
+        fn operations_that_keep_the_shape_deviate_by_rounding(curve in any_curve(1..=7), share in 0.01..0.99_f64) {
+            let (left, right) = curve.space().parameter_interval();
+            let t = left.mix(right, share);
+            let (before, after) = curve.split(t).unwrap();
+            for (what, same) in [
+                ("inserted", curve.insert_knot(t).unwrap()),
+                ("elevated", curve.elevate_degree().unwrap()),
+                ("Bezier", Nurbs::from_bezier(&curve.bezier_form()).unwrap()),
+                ("split", before.joined(&after).unwrap()),
+            ] {
+                let found = deviation(&curve, &same).unwrap();
+                prop_assert!(found.upper < 1e-9, "{what}: {found:?}");
+            }
+        }
+    }
 
     fn bezier(points: &[[f64; 2]], weights: &[f64]) -> Nurbs<DVec2> {
         let n = points.len() - 1;

@@ -1,4 +1,4 @@
-//! Curves made of curves: one point or weight replaced, reversed, mapped, split, opened, closed; and the circle.
+//! Curves made of curves: one point or weight replaced, reversed, mapped, opened, closed; and the circle.
 //!
 //! Course: section 6.1.
 
@@ -100,42 +100,6 @@ impl<P: Projective> Nurbs<P> {
         }
         Self::new(SplineSpace::periodic(n, period, new)?, points, weights)
     }
-
-    /// The parts of an open curve before and after `t`, each with end-interpolating knots; a closed curve is opened at `ξ₀` first.
-    ///
-    /// # Errors
-    ///
-    /// `OutsideInterval` unless `t` lies inside D.
-    pub fn split(&self, t: f64) -> Result<(Self, Self), SplineError> {
-        let (left, right) = self.space().parameter_interval();
-        if !t.is_finite() {
-            return Err(SplineError::NonFinite { what: "parameter", index: 0, value: t });
-        }
-        if t <= left || t >= right {
-            return Err(SplineError::OutsideInterval { value: t, left, right });
-        }
-        let opened = self.opened()?;
-        let n = self.degree();
-        let missing = n.saturating_sub(opened.space().multiplicity(t));
-        let cut = opened.insert_knots(&vec![t; missing])?;
-        let knots = cut.space().knots();
-        // With t n-fold, starting at index first, control point first − 1 lies on the curve and belongs to both parts.
-        let first = knots.partition_point(|&knot| knot < t);
-        let part = |knots: &[f64], points: &[P], weights: &[f64]| {
-            let (last, mut knots) = (knots.len() - 1, knots.to_vec());
-            knots[0] = knots[n] - (knots[n + 1] - knots[n]);
-            knots[last] = knots[last - n] + (knots[last - n] - knots[last - n - 1]);
-            Self::new(SplineSpace::new(n, knots)?, points.to_vec(), weights.to_vec())
-        };
-        // The placeholder knots at both cuts are replaced by outer knots.
-        let before: Vec<f64> = knots[..first + n].iter().copied().chain([t]).collect();
-        let after: Vec<f64> = [t].into_iter().chain(knots[first..].iter().copied()).collect();
-        let (points, weights) = (cut.points(), cut.weights());
-        Ok((
-            part(&before, &points[..first], &weights[..first])?,
-            part(&after, &points[first - 1..], &weights[first - 1..])?,
-        ))
-    }
 }
 
 impl Nurbs<DVec2> {
@@ -163,7 +127,7 @@ impl Nurbs<DVec2> {
 }
 
 /// The open spline with `n`-fold ends and the outer knots where the convention puts them.
-fn clamped<P: Point>(spline: &Spline<P>) -> Result<Spline<P>, SplineError> {
+pub(super) fn clamped<P: Point>(spline: &Spline<P>) -> Result<Spline<P>, SplineError> {
     let n = spline.degree();
     let open = spline.unroll()?;
     let (left, right) = open.space().parameter_interval();
@@ -232,28 +196,6 @@ mod tests {
                 assert!((a - b).length() < 1e-12, "degree {}, t = {t}: {a} and {b}", curve.degree());
             }
         }
-    }
-
-    #[test]
-    fn two_parts_are_the_whole() {
-        for curve in closed_curves().into_iter().chain([open_curve()]) {
-            let (left, right) = curve.space().parameter_interval();
-            for share in [0.1, 0.5, 2.0 / 7.0, 0.9] {
-                let t = left.mix(right, share);
-                let (before, after) = curve.split(t).unwrap();
-                assert_eq!(before.space().parameter_interval(), (left, t), "first part");
-                assert_eq!(after.space().parameter_interval(), (t, right), "second part");
-                for i in 0..=30 {
-                    let at = left.mix(right, f64::from(i) / 30.0);
-                    let part = if at <= t { &before } else { &after };
-                    let error = (part.evaluate(at).unwrap() - curve.evaluate(at).unwrap()).length();
-                    assert!(error < 1e-12, "split at {t}, {at}: off by {error}");
-                }
-            }
-            assert_eq!(curve.split(left).unwrap_err().name(), "OutsideInterval", "nothing before the start");
-        }
-        let (before, after) = open_curve().split(5.0).unwrap();
-        assert_eq!((before.points().len(), after.points().len()), (5, 4), "at a double knot");
     }
 
     #[test]

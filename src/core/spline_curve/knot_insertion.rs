@@ -46,16 +46,25 @@ impl<P: Point> Spline<P> {
             sorted.push(if space.is_periodic() && reduced >= right { left } else { reduced });
         }
         sorted.sort_by(f64::total_cmp);
-        check_multiplicities(space, &sorted)?;
         if sorted.is_empty() {
             return Ok(self.clone());
         }
         match space.period() {
-            Some(period) => self.insert_periodic(&sorted, period),
+            Some(period) => {
+                check_multiplicities(space, &sorted)?;
+                self.insert_periodic(&sorted, period)
+            }
             None => {
-                let (knots, coefficients) =
-                    insert_open(self.degree(), space.knots(), self.coefficients(), &sorted);
-                Self::new(SplineSpace::new(self.degree(), knots)?, coefficients)
+                let (n, m) = (self.degree(), space.dimension());
+                // Knots pushed out of the sequence could hide that they are too many.
+                if sorted[0] <= left || sorted[sorted.len() - 1] >= right {
+                    check_multiplicities(space, &sorted)?;
+                }
+                let (knots, coefficients) = insert_open(n, space.knots(), self.coefficients(), &sorted);
+                debug_assert!(coefficients.len() >= m, "insertion never loses coefficients");
+                let refined = SplineSpace::new(n, knots)
+                    .or_else(|error| check_multiplicities(space, &sorted).and(Err(error)))?;
+                Self::new(refined, coefficients)
             }
         }
     }
@@ -87,7 +96,8 @@ impl<P: Point> Spline<P> {
             .take_while(|shift| sorted[0] + shift < end)
             .flat_map(|shift| sorted.iter().map(move |s| s + shift))
             .filter(|&s| s < end);
-        let (knots, coefficients) = insert_sorted(n, &knots, &coefficients, copies);
+        let additional = 2 * sorted.len() + 2 * n;
+        let (knots, coefficients) = insert_sorted(n, &knots, &coefficients, copies, additional);
         let start = first.unsigned_abs();
         let range = start..start + space.dimension() + sorted.len();
         let space = SplineSpace::periodic(n, period, knots[range.clone()].to_vec())?;
@@ -147,17 +157,20 @@ pub(super) fn insert_open<P: Point>(
     sorted: &[f64],
 ) -> (Vec<f64>, Vec<P>) {
     let (left, right) = (knots[degree], knots[coefficients.len()]);
-    let (mut knots, mut coefficients) = insert_sorted(degree, knots, coefficients, sorted.iter().copied());
-    let at_left = sorted.iter().filter(|&&s| s <= left).count();
-    let at_right = sorted.iter().filter(|&&s| s >= right).count();
+    let new = sorted.iter().copied();
+    let (mut knots, mut coefficients) = insert_sorted(degree, knots, coefficients, new, sorted.len());
+    let at_left = sorted.iter().take_while(|&&s| s <= left).count();
+    let at_right = sorted.iter().rev().take_while(|&&s| s >= right).count();
     knots.truncate(knots.len() - at_right);
     coefficients.truncate(coefficients.len() - at_right);
-    knots.drain(..at_left);
-    coefficients.drain(..at_left);
+    if at_left > 0 {
+        knots.drain(..at_left);
+        coefficients.drain(..at_left);
+    }
     (knots, coefficients)
 }
 
-/// Boehm's rule for increasing new knots, in one pass from left to right.
+/// Boehm's rule for increasing new knots, about `count` of them, in one pass from left to right.
 ///
 /// `knots[k]` starts the support of `coefficients[k]`; every new knot lies in `[knots[degree], knots[coefficients.len()]]`.
 fn insert_sorted<P: Point>(
@@ -165,52 +178,113 @@ fn insert_sorted<P: Point>(
     knots: &[f64],
     coefficients: &[P],
     new: impl Iterator<Item = f64>,
+    count: usize,
 ) -> (Vec<f64>, Vec<P>) {
-    let mut done_knots: Vec<f64> = Vec::with_capacity(knots.len() * 2);
-    let mut done: Vec<P> = Vec::with_capacity(coefficients.len() * 2);
-    let (mut next_knot, mut next_coefficient) = (0, 0);
+    // With the degree a constant, the loop over the new coefficients is unrolled.
+    match degree {
+        1 => insertion_pass(1, knots, coefficients, new, count),
+        2 => insertion_pass(2, knots, coefficients, new, count),
+        3 => insertion_pass(3, knots, coefficients, new, count),
+        4 => insertion_pass(4, knots, coefficients, new, count),
+        5 => insertion_pass(5, knots, coefficients, new, count),
+        _ => insertion_pass(degree, knots, coefficients, new, count),
+    }
+}
+
+#[inline(always)]
+fn insertion_pass<P: Point>(
+    n: usize,
+    knots: &[f64],
+    coefficients: &[P],
+    new: impl Iterator<Item = f64>,
+    count: usize,
+) -> (Vec<f64>, Vec<P>) {
+    let mut done_knots: Vec<f64> = Vec::with_capacity(knots.len() + count);
+    let mut done: Vec<P> = Vec::with_capacity(coefficients.len() + count);
+    let mut next = 0;
     for s in new {
-        while next_knot < knots.len() && knots[next_knot] <= s {
-            done_knots.push(knots[next_knot]);
-            next_knot += 1;
-            if next_coefficient < coefficients.len() {
-                done.push(coefficients[next_coefficient]);
-                next_coefficient += 1;
-            }
+        let from = next;
+        while knots.get(next).is_some_and(|&knot| knot <= s) {
+            next += 1;
         }
-        // Index after ξₗ, and number of copies of s so far.
-        let after = done_knots.len();
-        let multiplicity = done_knots.iter().rev().take_while(|&&knot| knot >= s).count();
-        let first_changed = (after - degree).max(1);
-        let first_shifted = after - multiplicity;
-        let knot = |k: usize| if k < after { done_knots[k] } else { knots[next_knot + k - after] };
+        done_knots.extend_from_slice(&knots[from..next]);
+        let inner = coefficients.len();
+        done.extend_from_slice(&coefficients[from.min(inner)..next.min(inner)]);
+        // The n knots up to s and the n knots behind it; the coefficients in between change. At copies of s itself γ is 0,
+        // which moves a coefficient up unchanged.
+        let first = done_knots.len() - n;
+        let (before, behind) = (&done_knots[first..], &knots[next..]);
         if let Some(&last) = done.last() {
             done.push(last);
         }
-        for k in (first_shifted..done.len() - 1).rev() {
-            done[k] = done[k - 1];
-        }
-        for k in (first_changed..first_shifted).rev() {
-            let gamma = (s - knot(k)) / (knot(k + degree) - knot(k));
-            done[k] = done[k - 1].mix(done[k], gamma);
+        let local = &mut done[first - 1..];
+        // Behind the right end of D there are fewer coefficients.
+        let changed = n.min(local.len().saturating_sub(2));
+        for i in (0..changed).rev() {
+            let gamma = (s - before[i]) / (behind[i] - before[i]);
+            local[i + 1] = local[i].mix(local[i + 1], gamma);
         }
         done_knots.push(s);
     }
-    done_knots.extend_from_slice(&knots[next_knot..]);
-    done.extend_from_slice(&coefficients[next_coefficient..]);
+    done_knots.extend_from_slice(&knots[next..]);
+    done.extend_from_slice(coefficients.get(next..).unwrap_or_default());
     (done_knots, done)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::core::bspline::Side;
+    use crate::core::spline_curve::samples::{any_curve, any_spline, distance};
     use glam::DVec2;
+    use proptest::prelude::*;
 
     fn course_curve() -> Spline<DVec2> {
         let knots = vec![1.0, 2.0, 2.0, 2.0, 3.0, 5.0, 5.0, 8.0, 9.0, 10.0, 11.0];
         let points = [[0, 2], [4, 1], [4, 4], [1, 4], [1, 9], [5, 8], [4, 6]];
         let points = points.map(|[x, y]| DVec2::new(f64::from(x), f64::from(y)));
         Spline::new(SplineSpace::new(3, knots).unwrap(), points.to_vec()).unwrap()
+    }
+
+    proptest! {
+        #[test]
+        fn curves_of_every_kind_stay_and_the_order_does_not_matter(
+            curve in any_curve(1..=25), shares in prop::collection::vec(0.0..1.0_f64, 1..6), at_knots in any::<bool>(),
+        ) {
+            let (left, right) = curve.space().parameter_interval();
+            let place = |share: &f64| {
+                let t = left.mix(right, *share);
+                if at_knots { t.round().clamp(left, right) } else { t }
+            };
+            let new: Vec<f64> = shares.iter().map(place).collect();
+            let reversed: Vec<f64> = new.iter().rev().copied().collect();
+            let refined = match curve.insert_knots(&new) {
+                Ok(refined) => refined,
+                Err(error) => {
+                    prop_assert_eq!(error.name(), "KnotMultiplicityTooHigh", "only full knots refuse");
+                    return Ok(());
+                }
+            };
+            prop_assert!(distance(&curve, &refined) < 1e-12, "new {new:?}: off by {}", distance(&curve, &refined));
+            let other = curve.insert_knots(&reversed).unwrap();
+            prop_assert_eq!(&other, &refined, "the order of the list");
+            let stepwise = new.iter().fold(curve, |curve, &s| curve.insert_knot(s).unwrap());
+            prop_assert_eq!(stepwise.space(), refined.space(), "one after the other");
+            for (a, b) in stepwise.points().iter().zip(refined.points()) {
+                prop_assert!(a.distance(*b) < 1e-11, "one after the other: {a} and {b}");
+            }
+        }
+
+        #[test]
+        fn derivatives_stay(spline in any_spline(2..=8), share in 0.0..1.0_f64, at in 0.01..0.99_f64) {
+            let (left, right) = spline.space().parameter_interval();
+            let Ok(refined) = spline.insert_knot(left.mix(right, share)) else { return Ok(()) };
+            let t = left.mix(right, at);
+            let (a, b) = (spline.derivatives(t, 3, Side::Right).unwrap(), refined.derivatives(t, 3, Side::Right).unwrap());
+            for (order, (a, b)) in a.iter().zip(&b).enumerate() {
+                prop_assert!(a.distance(*b) < 1e-9 * a.length().max(100.0), "order {order}: {a} and {b}");
+            }
+        }
     }
 
     #[test]

@@ -20,6 +20,8 @@ pub struct KnotRemoval<P> {
     pub spline: Spline<P>,
     /// Upper bound of the distance to the old one at equal parameters, up to rounding; 0 if the knot was superfluous.
     pub deviation: f64,
+    /// The null vector `y` of the head of this file; empty for a period too short for it, where least squares take its place.
+    pub null_vector: Vec<f64>,
 }
 
 /// A NURBS with one knot less.
@@ -57,12 +59,25 @@ impl<P: Point> Spline<P> {
             None => {
                 let mut coefficients = self.coefficients().to_vec();
                 let mut knots = knots.to_vec();
-                let deviation = remove_open(self.degree(), &mut knots, &mut coefficients, after - 1);
+                let (deviation, null_vector) =
+                    remove_open(self.degree(), &mut knots, &mut coefficients, after - 1);
                 let space = SplineSpace::new(self.degree(), knots)?;
-                Ok(KnotRemoval { spline: Self::new(space, coefficients)?, deviation })
+                Ok(KnotRemoval { spline: Self::new(space, coefficients)?, deviation, null_vector })
             }
             Some(period) => self.remove_periodic(after - 1, period),
         }
+    }
+
+    /// Whether one copy of the knot `at` can go with the spline moving by at most `tolerance`.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::remove_knot`]; `InvalidTolerance` for a negative one.
+    pub fn is_removable(&self, at: f64, tolerance: f64) -> Result<bool, SplineError> {
+        if tolerance.is_nan() || tolerance < 0.0 {
+            return Err(SplineError::InvalidTolerance { value: tolerance });
+        }
+        Ok(self.remove_knot(at)?.deviation <= tolerance)
     }
 
     fn remove_periodic(&self, index: usize, period: f64) -> Result<KnotRemoval<P>, SplineError> {
@@ -83,7 +98,7 @@ impl<P: Point> Spline<P> {
         let mut stretch: Vec<f64> = (low..=high).filter_map(|k| space.knot(k)).collect();
         let at = |k: isize| k.rem_euclid(count as isize) as usize;
         let mut local: Vec<P> = (low..=index as isize + 1).map(|k| self.coefficients()[at(k)]).collect();
-        let deviation = remove_open(n, &mut stretch, &mut local, n + 1);
+        let (deviation, null_vector) = remove_open(n, &mut stretch, &mut local, n + 1);
         // In the period that starts with the stretch, coefficients beyond it move down by one index.
         let mut coefficients = self.coefficients().to_vec();
         coefficients.truncate(count - 1);
@@ -92,7 +107,7 @@ impl<P: Point> Spline<P> {
             let new = local.get(j).copied().unwrap_or_else(|| self.coefficients()[at(k + 1)]);
             coefficients[k.rem_euclid(count as isize - 1) as usize] = new;
         }
-        Ok(KnotRemoval { spline: Self::new(smaller, coefficients)?, deviation })
+        Ok(KnotRemoval { spline: Self::new(smaller, coefficients)?, deviation, null_vector })
     }
 
     /// Least squares in the coefficients, for periods in which the affected coefficients meet themselves.
@@ -117,8 +132,8 @@ impl<P: Point> Spline<P> {
         let spline = Self::new(smaller, coefficients)?;
         let again = spline.insert_knot(at)?;
         let pairs = again.coefficients().iter().zip(&target);
-        let deviation = pairs.map(|(&a, &b)| (a - b).norm()).fold(0.0, f64::max);
-        Ok(KnotRemoval { spline, deviation })
+        let deviation: f64 = pairs.map(|(&a, &b)| (a - b).norm()).fold(0.0, f64::max);
+        Ok(KnotRemoval { spline, deviation, null_vector: Vec::new() })
     }
 }
 
@@ -130,7 +145,7 @@ impl<P: Projective> Nurbs<P> {
     /// As [`Spline::remove_knot`]; `WeightNotPositive` if no positive weights remain.
     pub fn remove_knot(&self, at: f64) -> Result<NurbsKnotRemoval<P>, SplineError> {
         if self.is_polynomial() {
-            let KnotRemoval { spline, deviation } = self.without_weights().remove_knot(at)?;
+            let KnotRemoval { spline, deviation, .. } = self.without_weights().remove_knot(at)?;
             let (space, points) = spline.into_parts();
             let weights = vec![self.weights()[0]; points.len()];
             return Ok(NurbsKnotRemoval { curve: Self::new(space, points, weights)?, deviation });
@@ -142,14 +157,25 @@ impl<P: Projective> Nurbs<P> {
     }
 }
 
-/// Removes the knot with index `last`, the last copy of its value, and returns the deviation.
-fn remove_open<P: Point>(n: usize, knots: &mut Vec<f64>, coefficients: &mut Vec<P>, last: usize) -> f64 {
+/// What the removal of one knot of an open sequence does to the coefficients.
+pub(super) struct Step<P> {
+    /// The coefficients `first … first + null_vector.len() − 1` give way to `inner`, one fewer.
+    pub(super) first: usize,
+    pub(super) inner: Vec<P>,
+    /// `y`.
+    pub(super) null_vector: Vec<f64>,
+    /// `δ`.
+    pub(super) deviation: f64,
+}
+
+/// The removal of the inner knot with index `last`, the last copy of its value.
+pub(super) fn removal_step<P: Point>(n: usize, knots: &[f64], coefficients: &[P], last: usize) -> Step<P> {
     let s = knots[last];
     let multiplicity = knots[..=last].iter().rev().take_while(|&&knot| knot >= s).count();
-    knots.remove(last);
     // Of the remaining knots, the last one at or below s is number last − 1.
+    let remaining = |k: usize| knots[if k < last { k } else { k + 1 }];
     let (k0, k1) = (last - n, last - multiplicity);
-    let gamma: Vec<f64> = (k0..=k1).map(|k| (s - knots[k]) / (knots[k + n] - knots[k])).collect();
+    let gamma: Vec<f64> = (k0..=k1).map(|k| (s - remaining(k)) / (remaining(k + n) - remaining(k))).collect();
     let mut y = vec![1.0];
     for j in 1..gamma.len() {
         y.push(-y[j - 1] * gamma[j - 1] / (1.0 - gamma[j]));
@@ -177,8 +203,20 @@ fn remove_open<P: Point>(n: usize, knots: &mut Vec<f64>, coefficients: &mut Vec<
         let next = if j + 1 == end { behind } else { inner[j + 1] };
         inner[j] = next + (moved[j + 1] - next) * (1.0 - gamma[j + 1]).recip();
     }
-    coefficients.splice(k0..=k1, inner);
-    step.norm()
+    Step { first: k0, inner, null_vector: y, deviation: step.norm() }
+}
+
+/// Removes the knot with index `last`, the last copy of its value; returns the deviation and the null vector.
+fn remove_open<P: Point>(
+    n: usize,
+    knots: &mut Vec<f64>,
+    coefficients: &mut Vec<P>,
+    last: usize,
+) -> (f64, Vec<f64>) {
+    let Step { first, inner, null_vector, deviation } = removal_step(n, knots, coefficients, last);
+    coefficients.splice(first..first + null_vector.len(), inner);
+    knots.remove(last);
+    (deviation, null_vector)
 }
 
 /// `x` with least `|Σ columns[j]·x[j] − right|`, by modified Gram-Schmidt with the right side as last column.
@@ -213,7 +251,46 @@ fn least_squares<P: Point>(mut columns: Vec<Vec<f64>>, right: &[P]) -> Vec<P> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::core::spline_curve::samples::{any_spline, distance};
     use glam::DVec2;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn the_move_is_the_smallest_possible_largest_one(spline in any_spline(1..=7), choice in 0_usize..30) {
+            let spline = spline.unroll().unwrap();
+            let (left, right) = spline.space().parameter_interval();
+            let inner: Vec<f64> = spline.space().breaks().into_iter().filter(|&s| left < s && s < right).collect();
+            if inner.is_empty() {
+                return Ok(());
+            }
+            let s = inner[choice % inner.len()];
+            let removal = spline.remove_knot(s).unwrap();
+            let again = removal.spline.insert_knot(s).unwrap();
+            let moves: Vec<f64> = again.coefficients().iter().zip(spline.coefficients()).map(|(a, b)| a.distance(*b)).collect();
+            let largest = moves.iter().copied().fold(0.0, f64::max);
+            // All affected coefficients move equally far. By duality no splines without s is nearer: the null vector y annihilates all
+            // of them, so that any move m has Σ y m = residual and |m| ≥ |residual|/Σ|y| = δ.
+            prop_assert!((largest - removal.deviation).abs() < 1e-9 * removal.deviation.max(1.0), "{largest}, {}", removal.deviation);
+            let count = moves.iter().filter(|&&m| (m - removal.deviation).abs() < 1e-8 * removal.deviation.max(1.0)).count();
+            prop_assert!(count >= removal.null_vector.len(), "{moves:?}");
+        }
+
+        #[test]
+        fn removal_scales_with_the_curve_and_moves_with_it(spline in any_spline(2..=6), choice in 0_usize..30, factor in 0.1..8.0_f64) {
+            let knots = spline.space().distinct_knots();
+            let s = knots[choice % knots.len()].value;
+            let Ok(removal) = spline.remove_knot(s) else { return Ok(()) };
+            let map = |p: DVec2| p * factor + DVec2::new(-3.0, 7.0);
+            let moved = Spline::new(spline.space().clone(), spline.coefficients().iter().map(|&p| map(p)).collect()).unwrap();
+            let other = moved.remove_knot(s).unwrap();
+            prop_assert!((other.deviation - removal.deviation * factor).abs() < 1e-9 * factor.max(1.0), "{} {}", other.deviation, removal.deviation);
+            let curve = |spline: &Spline<DVec2>| Nurbs::polynomial(spline.space().clone(), spline.coefficients().to_vec()).unwrap();
+            let expected = curve(&removal.spline).transformed(map).unwrap();
+            let off = distance(&curve(&other.spline), &expected);
+            prop_assert!(off < 1e-8 * factor.max(1.0), "off by {off}");
+        }
+    }
 
     fn refined_course_curve(fourth: DVec2) -> Spline<DVec2> {
         let knots = vec![1.0, 2.0, 2.0, 2.0, 3.0, 4.0, 5.0, 5.0, 8.0, 9.0, 10.0, 11.0];

@@ -3,29 +3,73 @@
 //! | file | what |
 //! |---|---|
 //! | `nurbs` | 6.1 the rational curve |
-//! | `editing` | replaced points and weights, reversed, split, opened and closed curves, the circle |
-//! | `knot_insertion` | 6.3 one knot, many knots, uniform refinement |
-//! | `knot_removal` | the nearest curve with one knot less |
-//! | `bezier_form` | 6.4 one Bezier curve for each knot interval |
-//! | `degree` | degree elevation and reduction |
+//! | `batch` | many points at once |
+//! | `editing` | 6.1 replaced points and weights, reversed, opened and closed curves, the circle |
+//! | `trim`, `join` | 6.1 a part of a curve, both sides of a parameter, two curves as one |
+//! | `hull` | 6.2 hull and box of the active control points |
+//! | `distance_bound` | 6.2 distance of curve and control polygon |
+//! | `tessellation` | 6.2 polygons within a tolerance |
+//! | `knot_insertion` | 6.3 one knot, many knots, a knot in every interval |
+//! | `insertion_scheme` | 6.3, 6.4 the triangle of inserting one knot several times |
+//! | `refinement_matrix` | 6.3 the matrix of many insertions |
+//! | `subdivision` | 6.3 uniform subdivision |
+//! | `hyperplane`, `hyperplane_intersection` | 6.3 variation, and where a curve meets a hyperplane |
+//! | `bezier_form`, `from_bezier`, `bezier_conversion` | 6.4 one Bezier curve for each knot interval, and back |
+//! | `blossom` | 6.4 blossoms and the labels of control points |
+//! | `degree`, `degree_reduction`, `uniform_reduction` | degree elevation and reduction |
+//! | `knot_removal`, `removal_within` | the nearest curve with one knot less, and with as few knots as a tolerance allows |
+//! | `deviation`, `hausdorff` | certified distance at equal parameters, sampled distance of two point sets |
 //! | `closest_point` | the point of a curve closest to a given point |
 //! | `curvature` | frames, signed curvature, osculating circles |
-//! | `deviation` | certified distance of two curves at equal parameters |
 
+mod batch;
+mod bezier_conversion;
 mod bezier_form;
+mod blossom;
 mod closest_point;
 mod curvature;
 mod degree;
+mod degree_reduction;
 mod deviation;
+mod distance_bound;
 mod editing;
+mod from_bezier;
+mod hausdorff;
+mod hull;
+mod hyperplane;
+mod hyperplane_intersection;
+mod insertion_scheme;
+mod join;
 mod knot_insertion;
 mod knot_removal;
 mod nurbs;
+mod refinement_matrix;
+mod removal_within;
+#[cfg(test)]
+#[allow(clippy::expect_used, clippy::unwrap_used, reason = "a test stops at the first surprise")]
+mod samples;
+mod subdivision;
+mod tessellation;
+mod trim;
+mod uniform_reduction;
 
-pub use bezier_form::{BezierSegment, RationalSegment};
+pub use bezier_form::{BezierPieces, BezierSegment, RationalSegment};
+pub use blossom::{LabelBetween, label_closure, labels_between};
 pub use closest_point::ClosestPoint;
 pub use curvature::{Frame, OsculatingCircle};
-pub use degree::DegreeReduction;
-pub use deviation::{Deviation, deviation};
+pub use degree::elevation_matrix;
+pub use degree_reduction::{DegreeReduction, ReductionEnds};
+pub use deviation::{Deviation, DeviationLimits, deviation, deviation_within};
+pub use distance_bound::{PolygonDistance, uniform_distance_factor};
+pub use hausdorff::hausdorff_sampled;
+pub use hull::{convex_hull, coordinate_ranges};
+pub use hyperplane::{Hyperplane, variation};
+pub use hyperplane_intersection::{HyperplaneIntersection, IntersectionKind};
+pub use insertion_scheme::InsertionScheme;
 pub use knot_removal::{KnotRemoval, NurbsKnotRemoval};
 pub use nurbs::Nurbs;
+pub use refinement_matrix::refinement_matrix;
+pub use removal_within::{KnotReduction, NurbsKnotReduction};
+pub use subdivision::{subdivide_polygon, subdivision_mask};
+pub use tessellation::Tessellation;
+pub use uniform_reduction::{UniformReduction, reduce_uniformly};

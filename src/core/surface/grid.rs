@@ -170,19 +170,12 @@ impl Grid<'_> {
         for (block, table) in v_table.blocks.iter().zip(v_table.lanes.chunks_exact(2 * width)) {
             let (values, slopes) = table.split_at(width);
             // r, r_u, r_v of the homogeneous surface.
-            let mut sums = [[[0.0; LANES]; C]; 3];
+            let (mut p, mut du, mut dv) = ([[0.0; LANES]; C], [[0.0; LANES]; C], [[0.0; LANES]; C]);
             for coordinate in 0..C {
                 let along = &line[coordinate * columns + block.first..][..width];
                 let across = &line[(4 + coordinate) * columns + block.first..][..width];
-                for j in 0..width {
-                    for lane in 0..LANES {
-                        sums[0][coordinate][lane] += along[j] * values[j][lane];
-                        sums[1][coordinate][lane] += across[j] * values[j][lane];
-                        sums[2][coordinate][lane] += along[j] * slopes[j][lane];
-                    }
-                }
+                [p[coordinate], du[coordinate], dv[coordinate]] = sums(along, across, values, slopes);
             }
-            let [mut p, mut du, mut dv] = sums;
             if C == 4 {
                 let mut inverse = [0.0; LANES];
                 for lane in 0..LANES {
@@ -222,6 +215,20 @@ impl Grid<'_> {
         }
         singular
     }
+}
+
+/// The sums of one coordinate: values, derivatives in u, derivatives in v.
+#[inline(always)]
+fn sums(along: &[f64], across: &[f64], values: &[Lanes], slopes: &[Lanes]) -> [Lanes; 3] {
+    let (mut p, mut du, mut dv) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+    for (((&along, &across), value), slope) in along.iter().zip(across).zip(values).zip(slopes) {
+        for lane in 0..LANES {
+            p[lane] += along * value[lane];
+            du[lane] += across * value[lane];
+            dv[lane] += along * slope[lane];
+        }
+    }
+    [p, du, dv]
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 //! The coefficient of `xʳ` at the B-spline `b_k` of degree `n` is the elementary symmetric function of degree `r` of the knots
 //! `ξ_{k+1} … ξ_{k+n}`, divided by `C(n, r)`: the blossom of the monomial. Course: sections 4.3 and 7.3.
 
-use crate::core::bspline::SplineError;
+use crate::core::bspline::{SplineError, monomial_blossoms};
 use crate::core::point::Point;
 use crate::core::tensor::error::TensorError;
 use crate::core::tensor::space::TensorSplineSpace;
@@ -46,20 +46,6 @@ impl<P: Point, const D: usize> TensorSpline<P, D> {
         let coefficients = (0..space.dimension()).map(coefficient).collect();
         Self::new(space, coefficients)
     }
-}
-
-/// The blossoms of `1, x, …, xⁿ` at `n` arguments.
-fn monomial_blossoms(arguments: &[f64]) -> Vec<f64> {
-    // mean[r] = e_r/C(i, r) of the first i arguments: a convex update, free of large binomials.
-    let mut means = vec![0.0; arguments.len() + 1];
-    means[0] = 1.0;
-    for (i, &argument) in arguments.iter().enumerate() {
-        for r in (1..=i + 1).rev() {
-            let share = r as f64 / (i + 1) as f64;
-            means[r] = (1.0 - share) * means[r] + share * argument * means[r - 1];
-        }
-    }
-    means
 }
 
 #[cfg(test)]
