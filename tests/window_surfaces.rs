@@ -145,16 +145,16 @@ fn the_start_card_makes_a_surface_or_a_mesh() {
 fn a_control_point_is_dragged_in_the_plane_of_the_view_and_undo_is_exact() {
     let mut window = window(torus());
     let before = points(&window);
-    let from = place(&window, "Control point 6 of T");
-    drag(&mut window, "Control point 6 of T", vec2(70.0, -40.0));
+    let from = place(&window, "Control point 8 of T");
+    drag(&mut window, "Control point 8 of T", vec2(30.0, -40.0));
     let after = points(&window);
-    assert_eq!(moved(&before, &after), [6], "only this one");
-    let way = after[6] - before[6];
+    assert_eq!(moved(&before, &after), [8], "only this one");
+    let way = after[8] - before[8];
     let axes = Eye::new(lab(&window).view.eye).unwrap().axes();
     assert!(way.dot(axes.towards).abs() < 1e-12 * way.length(), "parallel to the page: {way}");
     assert!(way.dot(axes.right) > 0.0 && way.dot(axes.up) > 0.0, "right and up: {way}");
-    let to = place(&window, "Control point 6 of T");
-    assert!((to - from - vec2(70.0, -40.0)).length() < 0.1, "it stands under the pointer: {}", to - from);
+    let to = place(&window, "Control point 8 of T");
+    assert!((to - from - vec2(30.0, -40.0)).length() < 0.1, "it stands under the pointer: {}", to - from);
     assert_eq!(lab(&window).history.steps().0, 1, "one undo step");
     undo(&mut window);
     assert_eq!(points(&window), before, "undone exactly");
@@ -165,7 +165,7 @@ fn shift_and_letters_keep_a_drag_on_an_axis() {
     for (keys, letter, axis) in [(Modifiers::SHIFT, None, 2), (Modifiers::NONE, Some(Key::X), 0)] {
         let mut window = window(torus());
         let before = points(&window);
-        let from = place(&window, "Control point 6 of T");
+        let from = place(&window, "Control point 8 of T");
         window.hover_at(from);
         window.step();
         window.event(press(from, PointerButton::Primary, true));
@@ -181,7 +181,7 @@ fn shift_and_letters_keep_a_drag_on_an_axis() {
         }
         window.event(press(from + vec2(8.0, -60.0), PointerButton::Primary, false));
         window.run_steps(3);
-        let way = points(&window)[6] - before[6];
+        let way = points(&window)[8] - before[8];
         assert!(way[axis].abs() > 1e-3, "along {axis}: {way}");
         let others = [(axis + 1) % 3, (axis + 2) % 3].map(|other| way[other]);
         assert_eq!(others, [0.0, 0.0], "along {axis} alone: {way}");
@@ -336,6 +336,17 @@ fn a_click_selects_shift_adds_and_a_marquee_takes_what_it_holds() {
 }
 
 #[test]
+fn a_vertex_behind_the_surface_is_not_grabbed_through_it() {
+    let mut window = window(cube());
+    let hidden = place(&window, "Vertex 3 of T");
+    click(&mut window, hidden);
+    assert!(lab(&window).selection.points.is_empty(), "the surface is before it");
+    let before = points(&window);
+    drag(&mut window, "Vertex 3 of T", vec2(30.0, 30.0));
+    assert_eq!(points(&window), before, "it did not move");
+}
+
+#[test]
 fn a_click_on_the_refined_mesh_shows_the_stencil_of_a_vertex() {
     let mut window = window(cube());
     let at = middle(&window);
@@ -358,7 +369,7 @@ fn without_selected_points_delete_removes_the_object_and_undo_brings_it_back() {
 fn deleting_points_of_a_net_is_refused_with_the_reason() {
     let mut window = window(torus());
     let before = document(&window);
-    let at = place(&window, "Control point 6 of T");
+    let at = place(&window, "Control point 8 of T");
     click(&mut window, at);
     key(&mut window, Modifiers::NONE, Key::Delete);
     assert_eq!(document(&window), before, "nothing changed");
@@ -409,6 +420,33 @@ fn inserting_a_knot_keeps_the_surface() {
     for at in [[0.2, 0.3], [2.5, 1.0], [3.9, 3.9]] {
         let distance = before.evaluate(at).unwrap().distance(after.evaluate(at).unwrap());
         assert!(distance < 1e-13, "{distance} at {at:?}");
+    }
+}
+
+#[test]
+fn the_lessons_of_the_room_judge_a_typed_answer() {
+    for (section, wrong, hint, right) in
+        [("8.2", "3", "control point", "2,1213"), ("8.3", "4/9", "midpoints", "5/9")]
+    {
+        let mut window = window(None);
+        let current = |window: &Window| lab(window).lesson.as_ref().map(|state| state.lesson.section.clone());
+        while current(&window).as_deref() != Some(section) {
+            key(&mut window, Modifiers::NONE, Key::PageDown);
+        }
+        assert_eq!(lab(&window).room(), Room::Surfaces, "{section} opens here");
+        for (answer, is_right) in [(wrong, false), (right, true)] {
+            window.get_by_label("Answer").focus();
+            window.step();
+            window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+            window.step();
+            window.get_by_label("Answer").type_text(answer);
+            window.step();
+            window.key_press(Key::Enter);
+            window.run_steps(3);
+            let verdict = lab(&window).lesson.as_ref().unwrap().verdict.clone().unwrap();
+            assert_eq!(verdict.correct, is_right, "{section}, {answer}: {verdict:?}");
+            assert!(is_right || verdict.message.contains(hint), "{section}, {answer}: {verdict:?}");
+        }
     }
 }
 

@@ -213,7 +213,7 @@ ROOMS = [
     (
         "Surfaces",
         "surface.spline",
-        [("Control point 6 of Torus", DRAG), ("Vertex 6 of Cube", (30, -20))],
+        [("Control point 8 of Torus", DRAG), ("Vertex 6 of Cube", (30, -20))],
     ),
     ("Finite elements", "mushroom.spline", [("Centre of ellipse 3 of Mushroom", DRAG)]),
 ]

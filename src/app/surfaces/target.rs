@@ -9,7 +9,7 @@ use crate::app::lab::Lab;
 use crate::app::surfaces::canvas::Canvas;
 use crate::core::surface::catmull_clark::SubdivisionStep;
 use crate::document::{Content, Object, ObjectId};
-use crate::figure::scene::{EyeView, nearest_point};
+use crate::figure::scene::EyeView;
 use crate::figure::surfaces::control_points;
 
 /// Distances in pt within which things are hit.
@@ -21,6 +21,13 @@ const ARROW: f64 = 56.0;
 const LEAST_ARROW: f64 = 16.0;
 /// With more edges than this a control mesh is looked through only for its vertices.
 const MOST_EDGES: usize = 20_000;
+
+/// What lies within reach is asked for so many times whether a surface hides it.
+const MOST_ASKED: usize = 6;
+/// In scenes with more triangles nothing counts as hidden, so that the pointer stays quick.
+const MOST_TRIANGLES: usize = 60_000;
+/// Up to this part of its depth a point lies on the surface, not behind it.
+const ON_SURFACE: f64 = 1e-3;
 
 /// A thing under the pointer.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -91,12 +98,12 @@ pub(super) fn target_at(canvas: &Canvas, lab: &Lab, view: &EyeView, page: DVec2,
         .rev()
         .filter(|object| shows_points(object) && selected.is_none_or(|selected| selected.id != object.id));
     for object in selected.into_iter().chain(others.clone()) {
-        if let Some(hit) = nearest_point(view, control_points(object), page, POINT_REACH) {
-            return Target::Point(object.id, hit.index);
+        if let Some(point) = point_at(canvas, lab, object, view, page) {
+            return Target::Point(object.id, point);
         }
     }
     for object in selected.into_iter().chain(others) {
-        if let Some(ends) = edge_at(object, view, page) {
+        if let Some(ends) = edge_at(canvas, object, view, page) {
             return Target::Edge(object.id, ends);
         }
     }
@@ -108,8 +115,35 @@ pub(super) fn target_at(canvas: &Canvas, lab: &Lab, view: &EyeView, page: DVec2,
     Target::Nothing
 }
 
+/// The control point nearest to a place of the page that no surface hides; selected ones are never hidden.
+fn point_at(canvas: &Canvas, lab: &Lab, object: &Object, view: &EyeView, page: DVec2) -> Option<usize> {
+    let points = control_points(object);
+    let seen = points.iter().enumerate().filter_map(|(index, &point)| {
+        let seen = view.project(point)?;
+        let distance = seen.page.distance(page);
+        (distance <= POINT_REACH).then_some((index, distance, seen.depth))
+    });
+    let mut near: Vec<_> = seen.collect();
+    near.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.2.total_cmp(&b.2)));
+    let is_marked = |index| lab.selection.object == Some(object.id) && lab.selection.points.contains(&index);
+    near.into_iter()
+        .take(MOST_ASKED)
+        .map(|(index, ..)| index)
+        .find(|&index| is_marked(index) || !is_hidden(canvas, view, points[index]))
+}
+
+/// Whether a surface lies before a point of space; of very fine scenes nobody knows.
+fn is_hidden(canvas: &Canvas, view: &EyeView, point: DVec3) -> bool {
+    if canvas.triangle_count() > MOST_TRIANGLES {
+        return false;
+    }
+    let Some(seen) = view.project(point) else { return true };
+    let before = canvas.scene().pick_triangle(view, seen.page);
+    before.is_some_and(|hit| view.eye.depth(hit.hit.point) < seen.depth * (1.0 - ON_SURFACE))
+}
+
 /// The edge of a control mesh at a place of the page, the nearest to the eye if there are several.
-fn edge_at(object: &Object, view: &EyeView, page: DVec2) -> Option<[u32; 2]> {
+fn edge_at(canvas: &Canvas, object: &Object, view: &EyeView, page: DVec2) -> Option<[u32; 2]> {
     let cage = object.mesh()?.cage();
     let topology = cage.topology();
     if topology.edge_count() > MOST_EDGES {
@@ -120,9 +154,17 @@ fn edge_at(object: &Object, view: &EyeView, page: DVec2) -> Option<[u32; 2]> {
         let ends = topology.edge(edge);
         let [a, b] = ends.map(|end| seen[end as usize]);
         let (a, b) = (a?, b?);
-        (distance(page, a.page, b.page) <= EDGE_REACH).then_some((a.depth + b.depth, ends))
+        let share = share(page, a.page, b.page);
+        (distance(page, a.page, b.page) <= EDGE_REACH).then_some((a.depth + b.depth, ends, share))
     });
-    hits.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, ends)| ends)
+    let mut near: Vec<_> = hits.collect();
+    near.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let place = |[a, b]: [u32; 2], share: f64| {
+        let [a, b] = [a, b].map(|end| cage.positions()[end as usize]);
+        a + (b - a) * share
+    };
+    let seen = |&(_, ends, share): &(f64, [u32; 2], f64)| !is_hidden(canvas, view, place(ends, share));
+    near.into_iter().take(MOST_ASKED).find(seen).map(|(_, ends, _)| ends)
 }
 
 /// The face of the control mesh in which a triangle of the drawn mesh lies.
@@ -142,10 +184,14 @@ fn cage_face(canvas: &Canvas, lab: &Lab, object: ObjectId, triangle: usize) -> O
 
 /// Distance of a point from a segment.
 fn distance(point: DVec2, a: DVec2, b: DVec2) -> f64 {
+    point.distance(a + (b - a) * share(point, a, b))
+}
+
+/// How far along a segment the place nearest to a point is, from 0 to 1.
+fn share(point: DVec2, a: DVec2, b: DVec2) -> f64 {
     let way = b - a;
     let square = way.length_squared();
-    let share = if square > 0.0 { ((point - a).dot(way) / square).clamp(0.0, 1.0) } else { 0.0 };
-    point.distance(a + way * share)
+    if square > 0.0 { ((point - a).dot(way) / square).clamp(0.0, 1.0) } else { 0.0 }
 }
 
 /// The view of the canvas that fills `rect`.

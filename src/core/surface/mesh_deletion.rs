@@ -152,8 +152,11 @@ fn polygon(rim: &BTreeMap<u32, u32>) -> Option<Vec<u32>> {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests stop at the first surprise")]
 
+    use proptest::prelude::*;
+
     use super::*;
-    use crate::core::surface::mesh_shapes;
+    use crate::core::surface::catmull_clark::BoundaryRule;
+    use crate::core::surface::{mesh_faults, mesh_shapes};
 
     #[test]
     fn an_inner_vertex_leaves_one_polygon_and_its_euler_number() {
@@ -221,5 +224,26 @@ mod tests {
         assert_eq!(less.fixed_vertices(), [at(&cube, 7)], "the fixed vertex");
         let open = cube.without_faces(&[1]).unwrap();
         assert_eq!(open.creases().len(), 4, "edges of the top are boundary now");
+    }
+
+    proptest! {
+        /// Whatever is deleted: the rest is a mesh that can be refined, with finite limits, or a reason is given.
+        #[test]
+        fn any_deletion_leaves_a_mesh_or_a_reason(
+            shape in 0usize..9, vertices in prop::collection::vec(0usize..48, 0..8),
+            faces in prop::collection::vec(0usize..48, 0..8),
+        ) {
+            let (name, mesh) = mesh_shapes::named_shapes().into_iter().nth(shape).unwrap();
+            for less in [mesh.without_vertices(&vertices), mesh.without_faces(&faces)] {
+                let Ok(less) = less else { continue };
+                let loops: Vec<Vec<u32>> = less.topology().faces().map(<[u32]>::to_vec).collect();
+                prop_assert_eq!(mesh_faults(less.positions().len(), &loops), vec![], "{}", name);
+                let rule = BoundaryRule::Standard { fix_corners: false };
+                let refined = less.subdivide_levels(2, rule).unwrap().pop().unwrap().mesh;
+                prop_assert_eq!(refined.counts()[3], less.counts()[3], "{}: V − E + F", name);
+                let limits = refined.limit_positions(false).into_iter().chain(less.limit_positions(false));
+                prop_assert!(limits.into_iter().all(|point| point.is_finite()), "{}", name);
+            }
+        }
     }
 }
