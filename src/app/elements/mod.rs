@@ -7,6 +7,8 @@ mod gesture;
 mod hit;
 mod inspector;
 mod live;
+mod marks;
+mod results;
 mod tools;
 
 use std::collections::BTreeSet;
