@@ -31,6 +31,8 @@ mod multiple_end_knots;
 mod periodic;
 mod piecewise;
 mod power_form;
+#[cfg(test)]
+mod samples;
 mod single_derivative;
 mod smoothness;
 mod space;
@@ -45,6 +47,8 @@ pub use error::{Side, SplineError};
 pub(in crate::core) use marsden::{monomial_blossoms, variance};
 pub use piecewise::PolynomialPiece;
 pub use power_form::PowerForm;
+#[cfg(test)]
+pub(in crate::core) use samples::any_spline;
 pub use single_derivative::{basis_derivative, basis_derivative_coefficients};
 pub use smoothness::{KnotSmoothness, LeadingTerm, basis_integral, basis_leading_term, basis_smoothness};
 pub use space::{DistinctKnot, MAX_DEGREE, SplineSpace};

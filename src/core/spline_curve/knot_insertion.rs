@@ -203,32 +203,41 @@ fn insertion_pass<P: Point>(
     let mut done: Vec<P> = Vec::with_capacity(coefficients.len() + count);
     let mut next = 0;
     for s in new {
-        let from = next;
-        while knots.get(next).is_some_and(|&knot| knot <= s) {
+        // One by one: copying short runs would cost a call each.
+        while let Some(&knot) = knots.get(next)
+            && knot <= s
+        {
+            done_knots.push(knot);
+            done.extend(coefficients.get(next));
             next += 1;
         }
-        done_knots.extend_from_slice(&knots[from..next]);
-        let inner = coefficients.len();
-        done.extend_from_slice(&coefficients[from.min(inner)..next.min(inner)]);
         // The n knots up to s and the n knots behind it; the coefficients in between change. At copies of s itself γ is 0,
-        // which moves a coefficient up unchanged.
+        // which moves a coefficient up unchanged. Behind the right end of D there are fewer coefficients.
         let first = done_knots.len() - n;
-        let (before, behind) = (&done_knots[first..], &knots[next..]);
-        if let Some(&last) = done.last() {
-            done.push(last);
-        }
+        done.extend(done.last().copied());
         let local = &mut done[first - 1..];
-        // Behind the right end of D there are fewer coefficients.
         let changed = n.min(local.len().saturating_sub(2));
-        for i in (0..changed).rev() {
-            let gamma = (s - before[i]) / (behind[i] - before[i]);
-            local[i + 1] = local[i].mix(local[i + 1], gamma);
+        if changed == n {
+            // The same loop with lengths that are known.
+            let (before, behind) = (&done_knots[first..first + n], &knots[next..next + n]);
+            cut_corners(n, s, before, behind, &mut local[..n + 1]);
+        } else {
+            cut_corners(changed, s, &done_knots[first..], &knots[next..], local);
         }
         done_knots.push(s);
     }
     done_knots.extend_from_slice(&knots[next..]);
     done.extend_from_slice(coefficients.get(next..).unwrap_or_default());
     (done_knots, done)
+}
+
+/// `local[i + 1]` becomes the new point on the leg that ends there, for `count` legs.
+#[inline(always)]
+fn cut_corners<P: Point>(count: usize, s: f64, before: &[f64], behind: &[f64], local: &mut [P]) {
+    for i in (0..count).rev() {
+        let gamma = (s - before[i]) / (behind[i] - before[i]);
+        local[i + 1] = local[i].mix(local[i + 1], gamma);
+    }
 }
 
 #[cfg(test)]

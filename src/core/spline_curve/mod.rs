@@ -46,7 +46,6 @@ mod nurbs;
 mod refinement_matrix;
 mod removal_within;
 #[cfg(test)]
-#[allow(clippy::expect_used, clippy::unwrap_used, reason = "a test stops at the first surprise")]
 mod samples;
 mod subdivision;
 mod tessellation;

@@ -15,8 +15,10 @@ use crate::core::spline_curve::Nurbs;
 const SAME_DISTANCE: f64 = 1e-12;
 /// Most points of a refined polygon.
 const MAX_POINTS: usize = 1 << 26;
-/// A closed polygon of this size stays in the first-level cache; the levels above are refined block by block.
+/// The last levels of a closed polygon of at least this size are refined block by block, in the first-level cache.
 const BLOCK: usize = 256;
+/// So many levels: each needs some points more on the left, which are computed twice.
+const BLOCK_LEVELS: usize = 6;
 
 /// The mask `sⱼ = 2⁻ⁿ C(n + 1, j)`, `j = 0 … n + 1`, of degree `n`.
 ///
@@ -25,12 +27,13 @@ const BLOCK: usize = 256;
 /// assert_eq!(subdivision_mask(3), [0.125, 0.5, 0.75, 0.5, 0.125]);
 /// ```
 pub fn subdivision_mask(degree: usize) -> Vec<f64> {
-    let mut mask = vec![1.0, 1.0];
-    for _ in 0..degree {
-        mask.push(0.0);
-        for j in (0..mask.len()).rev() {
-            mask[j] = 0.5 * (mask[j] + if j > 0 { mask[j - 1] } else { 0.0 });
+    let mut mask = vec![0.0; degree + 2];
+    (mask[0], mask[1]) = (1.0, 1.0);
+    for count in 2..degree + 2 {
+        for j in (1..=count).rev() {
+            mask[j] = 0.5 * (mask[j] + mask[j - 1]);
         }
+        mask[0] *= 0.5;
     }
     mask
 }
@@ -118,7 +121,7 @@ fn refine<P: Point, const TAPS: usize>(points: &[P], degree: usize, closed: bool
     let (mut padded, mut refined) = (Vec::new(), Vec::new());
     for level in 0..levels {
         let count = line.len();
-        if closed && count >= BLOCK {
+        if closed && count >= BLOCK && levels - level <= BLOCK_LEVELS {
             return refine_in_blocks(&masks, &line, levels - level);
         }
         // TAPS − 1 points before the first one: those of the period before, or any, since only complete masks are kept.
@@ -141,7 +144,7 @@ fn refine_in_blocks<P: Point, const TAPS: usize>(masks: &Masks<TAPS>, line: &[P]
     let mut result = Vec::with_capacity(count << levels);
     let (mut local, mut refined) = (Vec::new(), Vec::new());
     // As many coarse points that a refined block has about BLOCK·8 points, and not many fewer than the halo.
-    let step = (8 * BLOCK >> levels).max(4 * halo).min(count);
+    let step = ((8 * BLOCK) >> levels).max(4 * halo).min(count);
     let mut start = 0;
     while start < count {
         let end = (start + step).min(count);
