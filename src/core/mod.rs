@@ -10,7 +10,7 @@
 //! | 2.4 Differentiation | `bezier/derivative`, `bezier/continuity` |
 //! | 2.5 Curvature | `bezier/curvature`, `bezier/inflections`, `bezier/geometric_continuity` |
 //! | 2.6 Subdivision | `bezier/subdivision`, `bezier/arc_length`, `rational_bezier/intersection`, `rational_bezier/closest_point` |
-//! | 2.7 Geometric Hermite interpolation | `bezier/geometric_hermite` |
+//! | 2.7 Geometric Hermite interpolation | `bezier/geometric_hermite`, `bezier/geometric_hermite_fit` |
 //! | 3.1 Control polygon and weights | `rational_bezier/curve`, `rational_bezier/weight_points` |
 //! | 3.2 Basic properties | `rational_bezier/reparametrisation` |
 //! | 3.3 Algorithms | `rational_bezier/{homogeneous, derivative, subdivision, tessellation, intersection, closest_point}` |

@@ -81,6 +81,14 @@ mod tests {
     }
 
     #[test]
+    fn long_intervals_do_not_hide_a_jump() {
+        // Second derivatives of size 1e-6 over intervals of length 1000 bend the curve by its own size.
+        let before = BezierCurve::on_interval(vec![0.0, 1.0, 2.0], (0.0, 1000.0)).unwrap();
+        let after = BezierCurve::on_interval(vec![2.0, 3.0, 5.0], (1000.0, 2000.0)).unwrap();
+        assert_eq!(before.continuity(&after, 1e-3), Ok(Some(1)), "the curvature jumps");
+    }
+
+    #[test]
     fn curves_apart_are_not_continuous() {
         let curve = BezierCurve::new(vec![0.0, 1.0, 4.0]).unwrap();
         let apart = BezierCurve::new(vec![5.0, 1.0, 4.0]).unwrap();

@@ -216,6 +216,8 @@ impl BezierCurve<DVec2> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::core::polynomial::bernstein_values;
+    use proptest::prelude::*;
 
     #[test]
     fn monomial_form_goes_there_and_back() {
@@ -239,6 +241,38 @@ mod tests {
             assert!((point.x - x).abs() < 1e-15, "the parameter is the abscissa: {point}");
             assert_eq!(point.y, height.evaluate(x).unwrap(), "height at {x}");
         }
+    }
+
+    proptest! {
+        #[test]
+        fn the_curve_is_the_bernstein_sum(
+            a in prop::collection::vec(-4.0..4.0_f64, 1..30), b in prop::collection::vec(-4.0..4.0_f64, 30), t in 0.0..=1.0_f64,
+        ) {
+            let value = |points: Vec<f64>| BezierCurve::new(points).unwrap().evaluate(t).unwrap();
+            let n = a.len() - 1;
+            let sum: f64 = bernstein_values(n, t).iter().zip(&a).map(|(b, c)| b * c).sum();
+            let p = value(a.clone());
+            let unit = 4.0 * (n + 1) as f64 * f64::EPSILON * 4.0;
+            prop_assert!((p - sum).abs() <= unit, "{p} and {sum}");
+            let combined = value(a.iter().zip(&b).map(|(a, b)| a + 2.0 * b).collect());
+            let q = value(b[..=n].to_vec());
+            prop_assert!((combined - p - 2.0 * q).abs() <= 4.0 * unit, "linear in the points");
+            let moved = value(a.iter().map(|a| a + 3.0).collect());
+            prop_assert!((moved - p - 3.0).abs() <= 4.0 * unit, "translation");
+            let line = value((0..=n).map(|k| 1.0 + 5.0 * k as f64 / n.max(1) as f64).collect());
+            prop_assert!(n == 0 || (line - 1.0 - 5.0 * t).abs() <= 4.0 * unit, "equal steps run evenly");
+        }
+    }
+
+    #[test]
+    fn many_values_at_once_are_the_values_one_by_one() {
+        let curve = BezierCurve::on_interval(vec![1.0, 5.0, -2.0], (1.0, 3.0)).unwrap();
+        let mut values = [0.0; 3];
+        curve.write_values(&[1.0, 1.7, 3.0], &mut values).unwrap();
+        assert_eq!(values, [1.0, 1.7, 3.0].map(|x| curve.evaluate(x).unwrap()), "bit for bit");
+        assert_eq!(curve.write_values(&[1.0], &mut values).unwrap_err().name(), "SizeMismatch", "places");
+        let nan = curve.write_values(&[1.0, f64::NAN, 2.0], &mut values);
+        assert!(matches!(nan, Err(BezierError::NonFinite { index: 1, .. })), "{nan:?}");
     }
 
     #[test]

@@ -12,7 +12,6 @@
 
 use glam::DVec2;
 
-use crate::core::bezier::curvature::Frame;
 use crate::core::bezier::curve::BezierCurve;
 use crate::core::bezier::error::BezierError;
 use crate::core::point::Point as _;
@@ -118,28 +117,6 @@ pub fn geometric_hermite(start: EndData, end: EndData) -> Result<Vec<GeometricHe
     Ok(found)
 }
 
-/// Cubics through the points of a curve at increasing parameters, each with the directions and curvatures of the curve at its ends and, among
-/// several, the most equal speeds. `curve` gives `p, p′, p″`.
-///
-/// # Errors
-///
-/// `SizeMismatch` for fewer than two parameters; `Degenerate` where the speed is 0; those of [`geometric_hermite`], `NoSolution` for pieces that are too long.
-pub fn geometric_hermite_curve(
-    curve: impl Fn(f64) -> [DVec2; 3],
-    parameters: &[f64],
-) -> Result<Vec<GeometricHermite>, BezierError> {
-    if parameters.len() < 2 {
-        return Err(BezierError::SizeMismatch { what: "parameters", expected: 2, found: parameters.len() });
-    }
-    let data = |&parameter: &f64| {
-        let frame = Frame::from_derivatives(curve(parameter));
-        let frame = frame.ok_or(BezierError::Degenerate { what: "the tangent", parameter })?;
-        Ok(EndData { point: frame.point, direction: frame.tangent, curvature: frame.curvature })
-    };
-    let ends = parameters.iter().map(data).collect::<Result<Vec<_>, BezierError>>()?;
-    ends.windows(2).map(|pair| Ok(geometric_hermite(pair[0], pair[1])?.swap_remove(0))).collect()
-}
-
 /// The two equations in units of the chord.
 struct Equations {
     curvatures: [f64; 2],
@@ -223,6 +200,7 @@ impl Equations {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::core::bezier::curvature::Frame;
     use proptest::prelude::*;
 
     fn end(point: [f64; 2], angle: f64, curvature: f64) -> EndData {
@@ -295,44 +273,6 @@ mod tests {
         }
     }
 
-    /// Largest distance of the cubics of `count` pieces from the level set of `distance`.
-    fn error(
-        curve: impl Fn(f64) -> [DVec2; 3],
-        distance: impl Fn(DVec2) -> f64,
-        (a, b): (f64, f64),
-        count: u32,
-    ) -> f64 {
-        let parameters: Vec<f64> =
-            (0..=count).map(|i| a + (b - a) * f64::from(i) / f64::from(count)).collect();
-        let pieces = geometric_hermite_curve(curve, &parameters).unwrap();
-        let sample = |i| f64::from(i) / 64.0;
-        let at =
-            pieces.iter().flat_map(|piece| (0..=64).map(move |i| piece.curve.evaluate(sample(i)).unwrap()));
-        at.map(|point| distance(point).abs()).fold(0.0, f64::max)
-    }
-
-    #[test]
-    fn the_error_is_of_order_six() {
-        let circle = |t: f64| {
-            let p = DVec2::from_angle(t);
-            [p, p.perp(), -p]
-        };
-        let ellipse = |t: f64| circle(t).map(|p| DVec2::new(2.0 * p.x, p.y));
-        let graph = |t: f64| [DVec2::new(t, t.exp()), DVec2::new(1.0, t.exp()), DVec2::new(0.0, t.exp())];
-        let errors = |count| {
-            [
-                error(circle, |p| p.length() - 1.0, (0.0, 2.0), count),
-                error(ellipse, |p| p.x * p.x / 4.0 + p.y * p.y - 1.0, (0.3, 1.9), count),
-                error(graph, |p| p.y - p.x.exp(), (0.0, 1.5), count),
-            ]
-        };
-        let (coarse, fine) = (errors(3), errors(6));
-        for (coarse, fine) in coarse.into_iter().zip(fine) {
-            let order = (coarse / fine).log2();
-            assert!((5.5..6.8).contains(&order), "order {order}: {coarse} then {fine}");
-        }
-    }
-
     #[test]
     fn impossible_data_are_refused() {
         let name = |a, b| geometric_hermite(a, b).unwrap_err().name();
@@ -345,10 +285,5 @@ mod tests {
         assert_eq!(name(long, end([1.0, 0.0], 0.0, 1.0)), "DirectionNotUnit", "length √2");
         let far = end([1e308, -1e308], 0.0, 1.0);
         assert_eq!(name(end([-1e308, 1e308], 0.0, 1.0), far), "Degenerate", "the chord overflows");
-        assert_eq!(
-            geometric_hermite_curve(|_| [DVec2::ZERO; 3], &[0.0]).unwrap_err().name(),
-            "SizeMismatch",
-            "one"
-        );
     }
 }

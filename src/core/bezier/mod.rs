@@ -16,6 +16,7 @@
 //! | `subdivision` | 2.6 split and restricted curves |
 //! | `arc_length` | 2.6 length between chord and polygon |
 //! | `geometric_hermite` | 2.7 cubics from end points, directions and curvatures |
+//! | `geometric_hermite_fit` | 2.7 such cubics along a curve |
 
 mod arc_length;
 mod continuity;
@@ -28,6 +29,7 @@ mod derivative;
 mod error;
 mod geometric_continuity;
 mod geometric_hermite;
+mod geometric_hermite_fit;
 mod hull;
 mod inflections;
 mod subdivision;
@@ -40,7 +42,8 @@ pub use curve::BezierCurve;
 pub use degree::BezierReduction;
 pub use error::BezierError;
 pub use geometric_continuity::{GeometricJoint, GeometricOrder, geometric_joint, slide_control_points};
-pub use geometric_hermite::{EndData, GeometricHermite, geometric_hermite, geometric_hermite_curve};
+pub use geometric_hermite::{EndData, GeometricHermite, geometric_hermite};
+pub use geometric_hermite_fit::{HermitePiece, geometric_hermite_adaptive, geometric_hermite_curve};
 pub use hull::{EndTangents, convex_hull};
 pub use inflections::Inflections;
 pub use subdivision::subdivision_matrix;

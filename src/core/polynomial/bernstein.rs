@@ -9,7 +9,7 @@ use crate::core::polynomial::error::{PolynomialError, check_finite, check_interv
 /// `bⁿₖ(x)`, for any degree; 0 for `k < 0` and `k > n`, not a number if `x` is none or infinite.
 ///
 /// The factors of the product are taken in an order that keeps the partial products near 1, so that neither the binomial
-/// overflows nor the powers underflow before their product does.
+/// overflows nor the powers underflow before their product does. Linear in the smaller of `k` and `n − k`.
 ///
 /// ```
 /// use spline_lab::core::polynomial::bernstein;
@@ -33,12 +33,7 @@ pub fn bernstein(n: usize, k: isize, x: f64) -> f64 {
             left -= 1;
         }
     }
-    while left > 0 {
-        let power = left.min(1 << 20);
-        value *= large.powi(power as i32);
-        left -= power;
-    }
-    value
+    value * large.powf(left as f64)
 }
 
 /// Derivative of `bⁿₖ` at `x`: `n (bⁿ⁻¹ₖ₋₁(x) − bⁿ⁻¹ₖ(x))`.

@@ -118,6 +118,20 @@ pub fn circle_arc(
     Ok(arcs)
 }
 
+/// The arc as the fewest quadratic curves with openings of at most 120°, middle weights at least 1/2; see [`circle_arc`].
+///
+/// # Errors
+///
+/// As [`circle_arc`].
+pub fn quadratic_arc(
+    center: DVec2,
+    radius: f64,
+    angles: [f64; 2],
+) -> Result<Vec<RationalBezier<DVec2>>, RationalBezierError> {
+    let opening = (angles[1] - angles[0]).abs() / (2.0 * FRAC_PI_3);
+    circle_arc(center, radius, angles, 2, ((opening - ROUNDING).ceil() as usize).clamp(1, 3))
+}
+
 /// The whole circle, counterclockwise from its rightmost point, as [`circle_arc`].
 ///
 /// # Errors
@@ -201,6 +215,17 @@ mod tests {
             }
             assert!((length - 2.0 * TAU).abs() < 1e-9, "degree {degree}, {pieces} pieces: length {length}");
         }
+    }
+
+    #[test]
+    fn quadratic_arcs_have_as_few_pieces_as_120_degrees_allow() {
+        for (degrees, count) in [(1.0_f64, 1), (120.0, 1), (121.0, 2), (240.0, 2), (-300.0, 3), (360.0, 3)] {
+            let arcs = quadratic_arc(DVec2::ONE, 2.0, [0.5, 0.5 + degrees.to_radians()]).unwrap();
+            assert_eq!(arcs.len(), count, "{degrees} degrees");
+            assert!(arcs.iter().all(|arc| arc.weights()[1] > 0.5 - 1e-12), "weights of {degrees} degrees");
+        }
+        let twice = quadratic_arc(DVec2::ZERO, 1.0, [0.0, 7.0]);
+        assert_eq!(twice.unwrap_err().name(), "OutsideInterval", "more than the circle");
     }
 
     #[test]

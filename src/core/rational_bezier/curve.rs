@@ -8,7 +8,7 @@ use crate::core::point::Point as _;
 use crate::core::polynomial::bernstein_values;
 use crate::core::rational_bezier::Projective;
 use crate::core::rational_bezier::error::{RationalBezierError, check_finite};
-use crate::core::triangular_scheme::TriangularScheme;
+use crate::core::triangular_scheme::{TriangularScheme, collapse};
 
 /// A rational curve over an interval, given by its control points and positive weights.
 ///
@@ -138,11 +138,46 @@ impl<P: Projective> RationalBezier<P> {
     ///
     /// `NonFinite`; `Degenerate` where the denominator vanishes, which only happens outside the interval or where weights underflow.
     pub fn evaluate(&self, x: f64) -> Result<P, RationalBezierError> {
-        let (a, b) = self.interval();
-        if self.has_equal_weights() || x == a || x == b {
+        if self.has_equal_weights() {
             return Ok(self.points.evaluate(x)?);
         }
-        let (point, weight) = P::project(self.homogeneous.evaluate(x)?);
+        let t = self.local_parameter(x)?;
+        self.projected_value(x, t, || collapse(&mut self.homogeneous.points().to_vec(), t))
+    }
+
+    /// Writes the points at the parameters `xs` into `values`; one allocation for all of them.
+    ///
+    /// # Errors
+    ///
+    /// `SizeMismatch` unless there is a place for each parameter; those of [`Self::evaluate`].
+    pub fn write_values(&self, xs: &[f64], values: &mut [P]) -> Result<(), RationalBezierError> {
+        let (expected, found) = (xs.len(), values.len());
+        if expected != found {
+            return Err(RationalBezierError::SizeMismatch { what: "places for values", expected, found });
+        }
+        if self.has_equal_weights() {
+            return Ok(self.points.write_values(xs, values)?);
+        }
+        let mut scratch = self.homogeneous.points().to_vec();
+        for (&x, value) in xs.iter().zip(values) {
+            scratch.copy_from_slice(self.homogeneous.points());
+            let t = self.local_parameter(x)?;
+            *value = self.projected_value(x, t, || collapse(&mut scratch, t))?;
+        }
+        Ok(())
+    }
+
+    /// The point at `x` with the local parameter `t`, whose homogeneous point is `lifted()`; at the ends the end points as given.
+    fn projected_value(
+        &self,
+        x: f64,
+        t: f64,
+        lifted: impl FnOnce() -> P::Homogeneous,
+    ) -> Result<P, RationalBezierError> {
+        if t == 0.0 || t == 1.0 {
+            return Ok(self.points()[if t == 0.0 { 0 } else { self.degree() }]);
+        }
+        let (point, weight) = P::project(lifted());
         if weight == 0.0 || !point.is_finite() {
             return Err(RationalBezierError::Degenerate { what: "the point", value: x });
         }
@@ -285,6 +320,9 @@ pub(super) mod tests {
             prop_assert_eq!(other.evaluate(x).unwrap(), point, "a common factor");
             let scheme = curve.de_casteljau_scheme(x).unwrap().result().unwrap();
             prop_assert!((DVec2::project(scheme).0 - point).length() < 1e-13, "scheme");
+            let mut batch = [DVec2::ZERO; 3];
+            curve.write_values(&[-1.0, x, 2.0], &mut batch).unwrap();
+            prop_assert_eq!(batch, [curve.points()[0], point, curve.points()[curve.degree()]], "at once");
         }
 
         #[test]

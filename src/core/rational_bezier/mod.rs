@@ -33,7 +33,7 @@ mod subdivision;
 mod tessellation;
 mod weight_points;
 
-pub use circle::{circle, circle_arc, circle_arc_piece, ellipse};
+pub use circle::{circle, circle_arc, circle_arc_piece, ellipse, quadratic_arc};
 pub use closest_point::FootPoint;
 pub use conic::{Conic, ConicAxes, ConicKind, DegenerateConic};
 pub use curve::RationalBezier;
