@@ -89,6 +89,26 @@ impl RationalBezier<DVec2> {
     }
 }
 
+impl RationalBezier<DVec2> {
+    /// Middle direction and half opening of the angle that holds all tangents, that is all chords; `None` if it is not below 90 degrees.
+    pub(in crate::core) fn tangent_cone(&self) -> Option<(f64, f64)> {
+        let points = self.points();
+        // Edges of the polygon hold the tangents of a polynomial curve. Those of a rational one lie between chords of the polygon.
+        let pairs: Vec<DVec2> = if self.has_equal_weights() {
+            points.windows(2).map(|pair| pair[1] - pair[0]).collect()
+        } else {
+            (0..points.len())
+                .flat_map(|i| (i + 1..points.len()).map(move |j| points[j] - points[i]))
+                .collect()
+        };
+        let middle = points[points.len() - 1] - points[0];
+        let angle = |way: DVec2| middle.perp_dot(way).atan2(middle.dot(way));
+        let proper = pairs.into_iter().filter(|way| *way != DVec2::ZERO).map(angle);
+        let widest = proper.fold(0.0_f64, |most, angle| most.max(angle.abs()));
+        (middle != DVec2::ZERO && widest < std::f64::consts::FRAC_PI_2).then(|| (middle.to_angle(), widest))
+    }
+}
+
 impl BezierCurve<DVec2> {
     /// All common points with `other`, see [`RationalBezier::intersections`].
     ///
@@ -152,27 +172,11 @@ impl Part {
         mine.0 - theirs.1 > gap || theirs.0 - mine.1 > gap
     }
 
-    /// Middle direction and half opening of the angle that holds all tangents, that is all chords; `None` if it is not below 90 degrees.
-    fn cone(&self) -> Option<(f64, f64)> {
-        let points = self.curve.points();
-        // Edges of the polygon hold the tangents of a polynomial curve. Those of a rational one lie between chords of the polygon.
-        let pairs: Vec<DVec2> = if self.curve.has_equal_weights() {
-            points.windows(2).map(|pair| pair[1] - pair[0]).collect()
-        } else {
-            (0..points.len())
-                .flat_map(|i| (i + 1..points.len()).map(move |j| points[j] - points[i]))
-                .collect()
-        };
-        let middle = points[points.len() - 1] - points[0];
-        let angle = |way: DVec2| middle.perp_dot(way).atan2(middle.dot(way));
-        let proper = pairs.into_iter().filter(|way| *way != DVec2::ZERO).map(angle);
-        let widest = proper.fold(0.0_f64, |most, angle| most.max(angle.abs()));
-        (middle != DVec2::ZERO && widest < std::f64::consts::FRAC_PI_2).then(|| (middle.to_angle(), widest))
-    }
-
     /// Whether no tangent of `self` is parallel to one of `other`.
     fn directions_differ(&self, other: &Self) -> bool {
-        let (Some((a, p)), Some((b, q))) = (self.cone(), other.cone()) else { return false };
+        let (Some((a, p)), Some((b, q))) = (self.curve.tangent_cone(), other.curve.tangent_cone()) else {
+            return false;
+        };
         let turn = (a - b).rem_euclid(std::f64::consts::PI);
         turn.min(std::f64::consts::PI - turn) > p + q
     }

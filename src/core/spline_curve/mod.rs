@@ -19,6 +19,7 @@
 //! | `degree`, `degree_reduction`, `uniform_reduction` | degree elevation and reduction |
 //! | `knot_removal`, `removal_within` | the nearest curve with one knot less, and with as few knots as a tolerance allows |
 //! | `deviation`, `hausdorff` | certified distance at equal parameters, sampled distance of two point sets |
+//! | `line_intersection`, `curve_intersection`, `self_intersection` | B.6 where a curve meets a line, another curve, itself |
 //! | `closest_point` | the point of a curve closest to a given point |
 //! | `curvature` | frames, signed curvature, osculating circles |
 
@@ -28,6 +29,7 @@ mod bezier_form;
 mod blossom;
 mod closest_point;
 mod curvature;
+mod curve_intersection;
 mod degree;
 mod degree_reduction;
 mod deviation;
@@ -42,11 +44,13 @@ mod insertion_scheme;
 mod join;
 mod knot_insertion;
 mod knot_removal;
+mod line_intersection;
 mod nurbs;
 mod refinement_matrix;
 mod removal_within;
 #[cfg(test)]
 mod samples;
+mod self_intersection;
 mod subdivision;
 mod tessellation;
 mod trim;
@@ -56,6 +60,7 @@ pub use bezier_form::{BezierPieces, BezierSegment, RationalSegment};
 pub use blossom::{LabelBetween, label_closure, labels_between};
 pub use closest_point::ClosestPoint;
 pub use curvature::{Frame, OsculatingCircle};
+pub use curve_intersection::{CurveIntersection, Meeting};
 pub use degree::elevation_matrix;
 pub use degree_reduction::{DegreeReduction, ReductionEnds};
 pub use deviation::{Deviation, DeviationLimits, deviation, deviation_within};
@@ -66,6 +71,7 @@ pub use hyperplane::{Hyperplane, variation};
 pub use hyperplane_intersection::{HyperplaneIntersection, IntersectionKind};
 pub use insertion_scheme::InsertionScheme;
 pub use knot_removal::{KnotRemoval, NurbsKnotRemoval};
+pub use line_intersection::LineIntersection;
 pub use nurbs::Nurbs;
 pub use refinement_matrix::refinement_matrix;
 pub use removal_within::{KnotReduction, NurbsKnotReduction};
