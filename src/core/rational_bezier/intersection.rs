@@ -72,9 +72,7 @@ impl RationalBezier<DVec2> {
         }
         let unit = |curve: &Self| Self::new(curve.points().to_vec(), curve.weights().to_vec());
         let search = Search { curves: [unit(self)?, unit(other)?], tolerance };
-        let mut found = search.overlaps()?;
-        let covered: Vec<_> = found.iter().map(|hit| hit.contact).collect();
-        found.extend(search.contacts(&covered)?);
+        let mut found = search.all()?;
         found.sort_by(|p, q| p.parameters[0].total_cmp(&q.parameters[0]));
         let ends = [self.interval(), other.interval()];
         let back = |j: usize, t: f64| ends[j].0.mix(ends[j].1, t);
@@ -183,6 +181,26 @@ impl Part {
 }
 
 impl Search {
+    /// Everything that the curves have in common.
+    fn all(&self) -> Result<Vec<Intersection>, RationalBezierError> {
+        let [p, q] = [0, 1].map(|j| Part::new(self.curves[j].clone()));
+        if p.is_apart(&q, self.tolerance) || q.is_apart(&p, self.tolerance) {
+            return Ok(Vec::new());
+        }
+        // Where no tangents are parallel there is no common part, and one crossing at most.
+        let differ = p.directions_differ(&q);
+        if differ {
+            let found = self.polished(&p, &q, false)?;
+            if !found.is_empty() {
+                return Ok(found);
+            }
+        }
+        let mut found = if differ { Vec::new() } else { self.overlaps()? };
+        let covered: Vec<_> = found.iter().map(|hit| hit.contact).collect();
+        found.extend(self.contacts(&covered)?);
+        Ok(found)
+    }
+
     /// Size of the parts below which a pair that is left holds a contact.
     fn smallest(&self) -> f64 {
         let size = self.curves.iter().map(|curve| curve.without_weights().extent()).fold(0.0, f64::max);

@@ -3,7 +3,7 @@
 //! Of a Bezier piece with homogeneous control points `(wⱼ Pⱼ, wⱼ)` the numbers `wⱼ (a·Pⱼ − c)` are the Bernstein coefficients of a polynomial with the same
 //! zeros; an even multiplicity is a contact. Zeros at knots are found in both pieces and count once. Course: beyond, section B.6.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use crate::core::bspline::SplineError;
 use crate::core::point::Point as _;
@@ -62,17 +62,23 @@ impl Nurbs<DVec2> {
         }
         let (normal, offset) = (normal / length, offset / length);
         let mut found: Vec<LineIntersection> = Vec::new();
-        for piece in self.bezier_form() {
-            let (a, b) = piece.interval;
-            // In units of the largest weight, so that the values near 0 are lengths at least as large as the distance.
-            let largest = piece.weights.iter().copied().fold(0.0, f64::max);
-            let value = |(point, weight): (&DVec2, &f64)| (normal.dot(*point) - offset) * (weight / largest);
-            let values: Vec<f64> = piece.points.iter().zip(&piece.weights).map(value).collect();
+        let pieces = self.homogeneous().bezier_pieces();
+        let mut values = Vec::with_capacity(self.degree() + 1);
+        for ((a, b), points) in pieces.iter() {
+            // In units of the largest weight, so that values near 0 are lengths no larger than the distance.
+            let largest = points.iter().fold(0.0, |largest: f64, point| largest.max(point.z));
+            let value = |point: &DVec3| (normal.dot(point.truncate()) - offset * point.z) / largest;
+            values.clear();
+            values.extend(points.iter().map(value));
+            if values.iter().all(|&value| value > tolerance) || values.iter().all(|&value| value < -tolerance)
+            {
+                continue;
+            }
             match bernstein_zeros(&values, tolerance) {
                 Zeros::Everywhere => {
                     let ends = [a, b];
                     let meeting = Meeting::Overlap { first: ends, second: ends };
-                    let start = LineIntersection { parameter: a, point: piece.points[0], meeting };
+                    let start = LineIntersection { parameter: a, point: self.evaluate(a)?, meeting };
                     match found.last_mut().map(|last| &mut last.meeting) {
                         Some(Meeting::Overlap { first, second }) if first[1] >= a => {
                             (first[1], second[1]) = (b, b)
