@@ -16,16 +16,18 @@
 //! | 3.3 Algorithms | `rational_bezier/{homogeneous, derivative, subdivision, tessellation, intersection, closest_point}` |
 //! | 3.4 Conic sections | `rational_bezier/{conic, conic_arc, extended_conic, conic_construction, circle}` |
 //! | 4.1 Recurrence relation | `bspline/basis` |
-//! | 4.2 Differentiation | `bspline/derivative`, `bspline/integral` |
-//! | 4.4 Splines | `bspline/space`, `bspline/builders`, `bspline/multiple_end_knots`, `bspline/uniform`, `bspline/piecewise` |
-//! | 4.5 Evaluation and differentiation | `bspline/spline`, `bspline/derivative`, `bspline/integral` |
-//! | 4.6 Periodic splines | `bspline/space`, `bspline/unroll` |
+//! | 4.2 Differentiation | `bspline/single_derivative`, `bspline/basis_derivative`, `bspline/derivative`, `bspline/smoothness` |
+//! | 4.3 Representation of polynomials | `bspline/marsden` |
+//! | 4.4 Splines | `bspline/space`, `bspline/builders`, `bspline/multiple_end_knots`, `bspline/uniform`, `bspline/piecewise`, `bspline/power_form` |
+//! | 4.5 Evaluation and differentiation | `bspline/spline`, `bspline/batch`, `bspline/derivative`, `bspline/integral` |
+//! | 4.6 Periodic splines | `bspline/space`, `bspline/unroll`, `bspline/periodic` |
 //! | 5.1 Schoenberg's scheme | `approximation/schoenberg` |
 //! | 5.5 Interpolation | `approximation/sites`, `approximation/collocation`, `approximation/interpolation`, `approximation/cubic_interpolation` |
 //! | 5.6 Smoothing | `approximation/smoothing`, `approximation/smoothing_choice`, `approximation/smoothing_system`, `approximation/least_squares` |
-//! | 6.1 Control polygon | `spline_curve/nurbs`, `spline_curve/editing`, `spline_curve/curvature` |
-//! | 6.3 Refinement | `spline_curve/knot_insertion`, `spline_curve/knot_removal` |
-//! | 6.4 Algorithms | `spline_curve/bezier_form`, `spline_curve/bezier_conversion` |
+//! | 6.1 Control polygon | `spline_curve/{nurbs, batch, editing, trim, join, curvature}` |
+//! | 6.2 Basic properties | `spline_curve/{hull, distance_bound, tessellation}` |
+//! | 6.3 Refinement | `spline_curve/{knot_insertion, insertion_scheme, refinement_matrix, subdivision, hyperplane_intersection}` |
+//! | 6.4 Algorithms | `spline_curve/{bezier_form, from_bezier, bezier_conversion, blossom}` |
 //! | 7.3 Splines | `tensor/space`, `tensor/tensor_product`, `tensor/marsden`, `tensor/relevance`, `tensor/box_spline` |
 //! | 7.4 Algorithms | `tensor/grid`, `tensor/derivative`, `tensor/refinement`, `tensor/uniform_tableau` |
 //! | 8.2 Spline surfaces | `surface/nurbs_surface`, `surface/grid`, `surface/measure`, `surface/tessellation`, `surface/curvature` |
@@ -37,7 +39,12 @@
 //! | 9.5 Applications | `finite_element/flow` |
 //! | typed formulas | `formula` |
 //! | linear systems | `linear_system` |
-//! | beyond | `spline_curve/degree`, `spline_curve/deviation`, `spline_curve/closest_point` |
+//! | B.1 Degree elevation and reduction | `spline_curve/{degree, degree_reduction, uniform_reduction}` |
+//! | B.2 Knot removal | `spline_curve/{knot_removal, removal_within}` |
+//! | B.3 Measured deviation | `spline_curve/{deviation, hausdorff}` |
+//! | B.6 Intersections | `spline_curve/{line_intersection, curve_intersection, self_intersection}`, `rational_bezier/intersection` |
+//! | B.12 Circles, arcs and conics | `rational_bezier/{circle, conic_arc}` |
+//! | closest points | `spline_curve/closest_point`, `rational_bezier/closest_point` |
 //!
 //! # Notation and conventions
 //!

@@ -216,7 +216,7 @@ pub fn write(mesh: &PolygonMesh) -> String {
     write_watched(mesh, &Unwatched).unwrap_or_default()
 }
 
-/// As [`write`] with a watcher.
+/// As [`write()`] with a watcher.
 ///
 /// # Errors
 ///
