@@ -216,7 +216,7 @@ impl Merge<'_> {
             }
             match merged[parts..].iter_mut().find(|old| self.is_same(old, &hit)) {
                 Some(old) if hit.meeting == Meeting::Crossing && old.meeting == Meeting::Tangent => {
-                    *old = hit
+                    *old = hit;
                 }
                 Some(_) => {}
                 None => merged.push(hit),

@@ -81,7 +81,7 @@ impl Nurbs<DVec2> {
                     let start = LineIntersection { parameter: a, point: self.evaluate(a)?, meeting };
                     match found.last_mut().map(|last| &mut last.meeting) {
                         Some(Meeting::Overlap { first, second }) if first[1] >= a => {
-                            (first[1], second[1]) = (b, b)
+                            (first[1], second[1]) = (b, b);
                         }
                         _ => found.push(start),
                     }
