@@ -6,7 +6,7 @@ use crate::figure::scene::EyeView;
 /// Seconds without a change after which the fine picture is drawn.
 pub(super) const REST: f64 = 0.3;
 /// Scenes with less work are always drawn finely. The unit is a triangle.
-const LEAST_WORK: usize = 20_000;
+const LEAST_WORK: usize = 50_000;
 /// What a segment of a line costs.
 const STROKE: usize = 4;
 
