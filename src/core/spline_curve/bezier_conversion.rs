@@ -4,50 +4,10 @@
 //! knots at the joints. Course: section 6.4.
 
 use crate::core::bezier::BezierCurve;
-use crate::core::bspline::{EndKnots, Spline, SplineError, SplineSpace};
+use crate::core::bspline::{Spline, SplineError, SplineSpace};
 use crate::core::point::Point;
 use crate::core::rational_bezier::{Projective, RationalBezier, RationalBezierError};
-use crate::core::spline_curve::Nurbs;
-
-/// The space of pieces over `intervals`, all of one degree.
-fn joined_space(degree: usize, intervals: &[(f64, f64)]) -> Result<SplineSpace, SplineError> {
-    let Some(&(first, _)) = intervals.first() else {
-        return Err(SplineError::Empty { what: "pieces" });
-    };
-    let mut breaks = vec![first];
-    for (index, &(left, right)) in intervals.iter().enumerate() {
-        let before = breaks[breaks.len() - 1];
-        if left.to_bits() != before.to_bits() {
-            let reason = format!("piece {index} begins at {left}, not at {before}");
-            return Err(SplineError::NotInSpace { reason });
-        }
-        if index > 0 {
-            breaks.extend(std::iter::repeat_n(left, degree.saturating_sub(1)));
-        }
-        breaks.push(right);
-    }
-    SplineSpace::from_breaks(degree, &breaks, EndKnots::Interpolating)
-}
-
-/// The values of all pieces one after the other, the shared one of two neighbours once.
-fn joined<T: Copy + PartialEq>(what: &str, degree: usize, pieces: &[&[T]]) -> Result<Vec<T>, SplineError> {
-    let mut values: Vec<T> = Vec::with_capacity(pieces.len() * degree + 1);
-    for (index, piece) in pieces.iter().enumerate() {
-        if piece.len() != degree + 1 {
-            let (expected, found) = (degree + 1, piece.len());
-            return Err(SplineError::SizeMismatch { what: "control points of a piece", expected, found });
-        }
-        match values.last() {
-            Some(last) if *last != piece[0] => {
-                let reason = format!("piece {index} does not begin with the last {what} of the piece before");
-                return Err(SplineError::NotInSpace { reason });
-            }
-            Some(_) => values.extend_from_slice(&piece[1..]),
-            None => values.extend_from_slice(piece),
-        }
-    }
-    Ok(values)
-}
+use crate::core::spline_curve::{BezierSegment, Nurbs, RationalSegment};
 
 /// Whether the coefficients of an open space are Bezier points: every break `n`-fold.
 fn is_bezier_form(space: &SplineSpace) -> bool {
@@ -58,18 +18,17 @@ fn is_bezier_form(space: &SplineSpace) -> bool {
 }
 
 impl<P: Point> Spline<P> {
-    /// The spline of adjoining Bezier curves of one degree, each beginning in the last control point of the one before.
+    /// The spline of Bezier curves over consecutive intervals; points that are not shared are kept bit by bit.
     ///
     /// # Errors
     ///
-    /// `Empty`; `SizeMismatch` for different degrees; `NotInSpace` where intervals or points do not meet bit for bit; those of [`SplineSpace::new`], such as
-    /// `DegreeZero`.
+    /// As [`Spline::from_bezier`].
     pub fn from_bezier_curves(curves: &[BezierCurve<P>]) -> Result<Self, SplineError> {
-        let degree = curves.first().map_or(0, BezierCurve::degree);
-        let intervals: Vec<_> = curves.iter().map(BezierCurve::interval).collect();
-        let pieces: Vec<_> = curves.iter().map(BezierCurve::points).collect();
-        let points = joined("control point", degree, &pieces)?;
-        Self::new(joined_space(degree, &intervals)?, points)
+        let segment = |curve: &BezierCurve<P>| BezierSegment {
+            interval: curve.interval(),
+            points: curve.points().to_vec(),
+        };
+        Self::from_bezier(&curves.iter().map(segment).collect::<Vec<_>>())
     }
 
     /// The pieces from left to right as Bezier curves over their knot intervals; coefficients that are Bezier points already stay what they are.
@@ -84,19 +43,18 @@ impl<P: Point> Spline<P> {
 }
 
 impl<P: Projective> Nurbs<P> {
-    /// The curve of adjoining rational Bezier curves of one degree, each beginning with the last control point and weight of the one before.
+    /// The curve of rational Bezier curves over consecutive intervals; points and weights that are not shared are kept bit by bit.
     ///
     /// # Errors
     ///
-    /// As [`Spline::from_bezier_curves`]; `NonFinite` where the product of a weight and a coordinate overflows.
+    /// As [`Nurbs::from_bezier`].
     pub fn from_rational_bezier_curves(curves: &[RationalBezier<P>]) -> Result<Self, SplineError> {
-        let degree = curves.first().map_or(0, RationalBezier::degree);
-        let intervals: Vec<_> = curves.iter().map(RationalBezier::interval).collect();
-        let points: Vec<_> = curves.iter().map(RationalBezier::points).collect();
-        let weights: Vec<_> = curves.iter().map(RationalBezier::weights).collect();
-        let (points, weights) =
-            (joined("control point", degree, &points)?, joined("weight", degree, &weights)?);
-        Self::new(joined_space(degree, &intervals)?, points, weights)
+        let segment = |curve: &RationalBezier<P>| RationalSegment {
+            interval: curve.interval(),
+            points: curve.points().to_vec(),
+            weights: curve.weights().to_vec(),
+        };
+        Self::from_bezier(&curves.iter().map(segment).collect::<Vec<_>>())
     }
 
     /// The pieces from left to right as rational Bezier curves over their knot intervals; points and weights that are those of Bezier curves already stay
@@ -171,8 +129,16 @@ mod tests {
         let line = |a: f64, b: f64, interval| BezierCurve::on_interval(vec![a, b], interval).unwrap();
         let name = |pieces: &[BezierCurve<f64>]| Spline::from_bezier_curves(pieces).unwrap_err().name();
         assert_eq!(name(&[]), "Empty", "nothing");
-        assert_eq!(name(&[line(0.0, 1.0, (0.0, 1.0)), line(2.0, 3.0, (1.0, 2.0))]), "NotInSpace", "a jump");
-        assert_eq!(name(&[line(0.0, 1.0, (0.0, 1.0)), line(1.0, 3.0, (1.5, 2.0))]), "NotInSpace", "a gap");
+        assert_eq!(
+            name(&[line(0.0, 1.0, (0.0, 1.0)), line(2.0, 3.0, (1.0, 2.0))]),
+            "BoundaryMismatch",
+            "a jump"
+        );
+        assert_eq!(
+            name(&[line(0.0, 1.0, (0.0, 1.0)), line(1.0, 3.0, (1.5, 2.0))]),
+            "BoundaryMismatch",
+            "a gap"
+        );
         let parabola = BezierCurve::on_interval(vec![1.0, 2.0, 3.0], (1.0, 2.0)).unwrap();
         assert_eq!(name(&[line(0.0, 1.0, (0.0, 1.0)), parabola]), "SizeMismatch", "degrees 1 and 2");
         assert_eq!(name(&[BezierCurve::new(vec![1.0]).unwrap()]), "DegreeZero", "a point");
