@@ -6,8 +6,7 @@ use serde::Deserialize;
 use crate::core::bspline::{EndKnots, SplineSpace};
 use crate::core::finite_element::{LineForm, Method, line_system, r_difference, r_intersection, r_union};
 use crate::core::progress::Unwatched;
-use crate::course::number_text::short_number;
-use crate::course::question::{Verdict, sentence};
+use crate::course::question::{Verdict, judge, sentence};
 use crate::document::{Membrane, Operation};
 
 /// A number of finite elements.
@@ -87,37 +86,33 @@ pub(super) fn check(
     value: f64,
     feedback: &str,
 ) -> Verdict {
-    let right = match quantity.compute(membrane) {
-        Ok(right) => right,
-        Err(reason) => return Verdict::wrong(None, reason),
-    };
-    let difference = (value - right).abs();
-    if difference <= tolerance {
-        return Verdict::right(difference, feedback);
-    }
-    let close = |other: f64| (value - other).abs() <= tolerance;
-    let hint = match *quantity {
-        ElementsQuantity::StringCoefficient { .. } if close(2.0 * right) => {
-            "Twice too much: the load of a hat function is its area, $h$, and the tip of $x(1-x)/2$ is half of $x(1-x)$."
-        }
-        ElementsQuantity::StringCoefficient { .. } => {
-            "Hat functions meet the exact solution at the knots: look there at $x(1-x)/2$."
-        }
-        ElementsQuantity::RFunction { first, second, .. } if close(first + second) => {
-            "The root is missing: $\\sqrt{w_1^2+w_2^2}$ is added or subtracted."
-        }
-        ElementsQuantity::RFunction { first, second, .. } if close(first + second + first.hypot(second)) => {
-            "That is the union; an intersection subtracts the root."
-        }
-        ElementsQuantity::RFunction { .. } => "Put the two weights into the formula of the operation.",
-        ElementsQuantity::Determinant { .. } if close(-right) => {
-            "The sign is the other way round: first column times second row comes with plus."
-        }
-        ElementsQuantity::Determinant { .. } => {
-            "The columns are the derivatives along $t_1$ and $t_2$; multiply crosswise and subtract."
-        }
-    };
-    Verdict::wrong(Some(difference), format!("Not {}. {hint}", short_number(value)))
+    judge(value, quantity.compute(membrane), tolerance, feedback, |right| {
+        let close = |other: f64| (value - other).abs() <= tolerance;
+        let hint = match *quantity {
+            ElementsQuantity::StringCoefficient { .. } if close(2.0 * right) => {
+                "Twice too much: the load of a hat function is its area, $h$, and the tip of $x(1-x)/2$ is half of $x(1-x)$."
+            }
+            ElementsQuantity::StringCoefficient { .. } => {
+                "Hat functions meet the exact solution at the knots: look there at $x(1-x)/2$."
+            }
+            ElementsQuantity::RFunction { first, second, .. } if close(first + second) => {
+                "The root is missing: $\\sqrt{w_1^2+w_2^2}$ is added or subtracted."
+            }
+            ElementsQuantity::RFunction { first, second, .. }
+                if close(first + second + first.hypot(second)) =>
+            {
+                "That is the union; an intersection subtracts the root."
+            }
+            ElementsQuantity::RFunction { .. } => "Put the two weights into the formula of the operation.",
+            ElementsQuantity::Determinant { .. } if close(-right) => {
+                "The sign is the other way round: first column times second row comes with plus."
+            }
+            ElementsQuantity::Determinant { .. } => {
+                "The columns are the derivatives along $t_1$ and $t_2$; multiply crosswise and subtract."
+            }
+        };
+        hint.to_owned()
+    })
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use serde::Deserialize;
 
 use crate::core::approximation::ApproximationError;
 use crate::course::number_text::short_number;
-use crate::course::question::{Answer, Verdict, sentence, typed};
+use crate::course::question::{Answer, Verdict, judge, sentence, typed};
 use crate::document::{Approximation, Scheme};
 use crate::figure::approximation::fit;
 
@@ -59,21 +59,19 @@ fn judge_number(
     feedback: &str,
 ) -> Verdict {
     let (right, tolerance) = match right_number(approximation, scheme, task) {
-        Ok(right) => right,
-        Err(reason) => return Verdict::wrong(None, reason),
+        Ok((right, tolerance)) => (Ok(right), tolerance),
+        Err(reason) => (Err(reason), 0.0),
     };
-    let difference = (value - right).abs();
-    if difference <= tolerance {
-        return Verdict::right(difference, feedback);
-    }
-    let hint = match task {
-        FitTask::ViolatingSite => {
-            "Compare every $x_k$ with both ends of the support of $b_k$, beginning with $k = 0$."
-        }
-        _ if value < right => "The number is larger.",
-        _ => "The number is smaller.",
-    };
-    Verdict::wrong(Some(difference), format!("Not {}. {hint}", short_number(value)))
+    judge(value, right, tolerance, feedback, |right| {
+        let hint = match task {
+            FitTask::ViolatingSite => {
+                "Compare every $x_k$ with both ends of the support of $b_k$, beginning with $k = 0$."
+            }
+            _ if value < right => "The number is larger.",
+            _ => "The number is smaller.",
+        };
+        hint.to_owned()
+    })
 }
 
 /// The right number and the difference that counts as right.

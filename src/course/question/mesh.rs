@@ -5,9 +5,8 @@ use serde::Deserialize;
 
 use crate::core::surface::catmull_clark::Origin;
 use crate::core::surface::{MeshError, PolygonMesh};
-use crate::course::number_text::short_number;
-use crate::course::question::surface::SpaceAxis;
 use crate::course::question::{Verdict, sentence};
+use crate::course::question::{judge, surface::SpaceAxis};
 use crate::document::MeshObject;
 
 /// A coordinate of a vertex that subdivision makes of the control mesh.
@@ -69,33 +68,27 @@ pub(super) fn check(
     value: f64,
     feedback: &str,
 ) -> Verdict {
-    let right = match quantity.compute(object) {
-        Ok(right) => right,
-        Err(reason) => return Verdict::wrong(None, reason),
-    };
-    let difference = (value - right).abs();
-    if difference <= tolerance {
-        return Verdict::right(difference, feedback);
-    }
-    let (vertex, axis) = (quantity.vertex(), quantity.axis());
-    let close = |other: f64| (value - other).abs() <= tolerance;
-    let is_other = |other: MeshQuantity| other.compute(object).is_ok_and(close);
-    let cage = object.cage();
-    let hint = if close(axis.of(cage.positions()[vertex])) {
-        "That is the vertex itself; only corners with three sharp edges stay where they are."
-    } else if is_other(MeshQuantity::Limit { vertex, axis }) {
-        "That is where it tends to after infinitely many steps."
-    } else if is_other(MeshQuantity::Image { vertex, axis }) {
-        "That is its image after one step; the next steps move it on."
-    } else if with_edge_points(cage, vertex).is_some_and(|point| close(axis.of(point))) {
-        "$R$ is the mean of the midpoints of the edges, not of the new edge points."
-    } else if faces_mean(cage, vertex).is_some_and(|point| close(axis.of(point))) {
-        "That is $F$ alone, the mean of the face points."
-    } else {
-        "Take the mean $F$ of the centres of the faces around, the mean $R$ of the midpoints of the edges there, \
+    judge(value, quantity.compute(object), tolerance, feedback, |_| {
+        let (vertex, axis) = (quantity.vertex(), quantity.axis());
+        let close = |other: f64| (value - other).abs() <= tolerance;
+        let is_other = |other: MeshQuantity| other.compute(object).is_ok_and(close);
+        let cage = object.cage();
+        let hint = if close(axis.of(cage.positions()[vertex])) {
+            "That is the vertex itself; only corners with three sharp edges stay where they are."
+        } else if is_other(MeshQuantity::Limit { vertex, axis }) {
+            "That is where it tends to after infinitely many steps."
+        } else if is_other(MeshQuantity::Image { vertex, axis }) {
+            "That is its image after one step; the next steps move it on."
+        } else if with_edge_points(cage, vertex).is_some_and(|point| close(axis.of(point))) {
+            "$R$ is the mean of the midpoints of the edges, not of the new edge points."
+        } else if faces_mean(cage, vertex).is_some_and(|point| close(axis.of(point))) {
+            "That is $F$ alone, the mean of the face points."
+        } else {
+            "Take the mean $F$ of the centres of the faces around, the mean $R$ of the midpoints of the edges there, \
          and count the faces: $m$."
-    };
-    Verdict::wrong(Some(difference), format!("Not {}. {hint}", short_number(value)))
+        };
+        hint.to_owned()
+    })
 }
 
 /// `F`, the mean of the centres of the faces around an inner vertex.

@@ -16,7 +16,7 @@ use glam::DVec2;
 use serde::Deserialize;
 
 use crate::core::spline_curve::Nurbs;
-use crate::course::number_text::parse_number;
+use crate::course::number_text::{parse_number, short_number};
 use crate::course::stepper::{Entry, Stepper, de_boor_stepper};
 use crate::document::{Document, ObjectId};
 
@@ -209,6 +209,25 @@ impl Question {
             Task::PlacePoint { .. } | Task::Shape { .. } => None,
         }
     }
+}
+
+/// The verdict on `value`: right within `tolerance`, else the hint for the right number.
+fn judge(
+    value: f64,
+    right: Result<f64, String>,
+    tolerance: f64,
+    feedback: &str,
+    hint: impl FnOnce(f64) -> String,
+) -> Verdict {
+    let right = match right {
+        Ok(right) => right,
+        Err(reason) => return Verdict::wrong(None, reason),
+    };
+    let difference = (value - right).abs();
+    if difference <= tolerance {
+        return Verdict::right(difference, feedback);
+    }
+    Verdict::wrong(Some(difference), format!("Not {}. {}", short_number(value), hint(right)))
 }
 
 /// The verdict of `judge` on the number that was typed.

@@ -6,7 +6,7 @@ use serde::Deserialize;
 use crate::core::bspline::Side;
 use crate::core::spline_curve::Nurbs;
 use crate::course::number_text::short_number;
-use crate::course::question::{Verdict, find_entry, parents, sentence};
+use crate::course::question::{Verdict, find_entry, judge, parents, sentence};
 use crate::course::stepper::{Entry, Stepper, de_boor_stepper};
 
 /// A coordinate of the plane.
@@ -123,17 +123,10 @@ pub(super) fn check(
     value: f64,
     feedback: &str,
 ) -> Verdict {
-    let right = match quantity.compute(curve) {
-        Ok(right) => right,
-        Err(reason) => return Verdict::wrong(None, reason),
-    };
-    let difference = (value - right).abs();
-    if difference <= tolerance {
-        return Verdict::right(difference, feedback);
-    }
-    let close = |other: f64| (value - other).abs() <= tolerance;
-    let hint = hint(curve, quantity, value, right, &close);
-    Verdict::wrong(Some(difference), format!("Not {}. {hint}", short_number(value)))
+    judge(value, quantity.compute(curve), tolerance, feedback, |right| {
+        let close = |other: f64| (value - other).abs() <= tolerance;
+        hint(curve, quantity, value, right, &close)
+    })
 }
 
 fn hint(

@@ -3,8 +3,7 @@
 use glam::DVec3;
 use serde::Deserialize;
 
-use crate::course::number_text::short_number;
-use crate::course::question::{Verdict, sentence};
+use crate::course::question::{Verdict, judge, sentence};
 use crate::document::SurfaceObject;
 
 /// A coordinate of space.
@@ -73,32 +72,27 @@ pub(super) fn check(
     value: f64,
     feedback: &str,
 ) -> Verdict {
-    let right = match quantity.compute(object) {
-        Ok(right) => right,
-        Err(reason) => return Verdict::wrong(None, reason),
-    };
-    let difference = (value - right).abs();
-    if difference <= tolerance {
-        return Verdict::right(difference, feedback);
-    }
-    let (SurfaceQuantity::Point { parameter, .. } | SurfaceQuantity::AxisDistance { parameter }) = *quantity;
-    let of_points: Vec<f64> = object.surface().points().iter().map(|&point| quantity.of(point)).collect();
-    let farthest = of_points.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let close = |other: f64| (value - other).abs() <= tolerance;
-    let shifted = |shift: [f64; 2]| {
-        let at = [parameter[0] + shift[0], parameter[1] + shift[1]];
-        object.surface().evaluate(at).is_ok_and(|point| close(quantity.of(point)))
-    };
-    let hint = if value > farthest + tolerance {
-        "No control point is so far out, and the surface lies in their convex hull."
-    } else if of_points.iter().any(|&other| close(other)) {
-        "That is a control point. The surface runs between them: here it is a mean of several."
-    } else if [[0.0, 0.5], [0.0, -0.5], [0.5, 0.0], [-0.5, 0.0]].into_iter().any(shifted) {
-        "That is half a knot interval away."
-    } else {
-        "At a knot a quadratic spline is the mean of two neighbouring control points; do that in both directions."
-    };
-    Verdict::wrong(Some(difference), format!("Not {}. {hint}", short_number(value)))
+    judge(value, quantity.compute(object), tolerance, feedback, |_| {
+        let (SurfaceQuantity::Point { parameter, .. } | SurfaceQuantity::AxisDistance { parameter }) =
+            *quantity;
+        let of_points: Vec<f64> = object.surface().points().iter().map(|&point| quantity.of(point)).collect();
+        let farthest = of_points.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let close = |other: f64| (value - other).abs() <= tolerance;
+        let shifted = |shift: [f64; 2]| {
+            let at = [parameter[0] + shift[0], parameter[1] + shift[1]];
+            object.surface().evaluate(at).is_ok_and(|point| close(quantity.of(point)))
+        };
+        let hint = if value > farthest + tolerance {
+            "No control point is so far out, and the surface lies in their convex hull."
+        } else if of_points.iter().any(|&other| close(other)) {
+            "That is a control point. The surface runs between them: here it is a mean of several."
+        } else if [[0.0, 0.5], [0.0, -0.5], [0.5, 0.0], [-0.5, 0.0]].into_iter().any(shifted) {
+            "That is half a knot interval away."
+        } else {
+            "At a knot a quadratic spline is the mean of two neighbouring control points; do that in both directions."
+        };
+        hint.to_owned()
+    })
 }
 
 #[cfg(test)]
