@@ -251,11 +251,15 @@ impl SplineSpace {
     ///
     /// As [`Self::reduce`]; `x` of a periodic space is reduced first.
     pub fn span(&self, x: f64) -> Result<usize, SplineError> {
-        let x = self.reduce(x)?;
+        Ok(self.span_of_reduced(self.reduce(x)?))
+    }
+
+    /// As [`Self::span`] for an `x` in D, or in the period from `ξ₀`.
+    pub(super) fn span_of_reduced(&self, x: f64) -> usize {
         let last = self.evaluation_dimension();
         let after = self.knots[self.degree..=last].partition_point(|&knot| knot <= x) + self.degree;
         // At the right end every knot of D counts; the last nonempty interval starts at ξₘ₋₁ < ξₘ.
-        Ok(after.min(last) - 1)
+        after.min(last) - 1
     }
 
     /// As [`Self::span`] with the interval on the given side of `x`; at an end of D of an open space the only one.

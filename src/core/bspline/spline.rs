@@ -91,17 +91,38 @@ impl<P: Point> Spline<P> {
     /// `NonFinite`, `OutsideInterval`.
     pub fn evaluate(&self, x: f64) -> Result<P, SplineError> {
         let x = self.space.reduce(x)?;
-        let span = self.space.span(x)?;
-        Ok(self.evaluate_in_span(span, x))
+        Ok(self.evaluate_in_span(self.space.span_of_reduced(x), x))
     }
 
     /// The polynomial piece over the knot interval `span` at any `x`, also outside that interval.
     ///
     /// `span` is an index into the evaluation knots as [`SplineSpace::span`] returns it.
     pub fn evaluate_in_span(&self, span: usize, x: f64) -> P {
-        let mut local = self.local_coefficients(span);
-        de_boor(self.space.evaluation_knots(), self.degree(), span, x, &mut local);
-        local[self.degree()]
+        // With the degree a constant the loops are unrolled and nothing is cleared in vain.
+        match self.degree() {
+            1 => self.evaluate_degree::<2>(span, x),
+            2 => self.evaluate_degree::<3>(span, x),
+            3 => self.evaluate_degree::<4>(span, x),
+            4 => self.evaluate_degree::<5>(span, x),
+            5 => self.evaluate_degree::<6>(span, x),
+            degree => {
+                let mut local = self.local_coefficients(span);
+                de_boor(self.space.evaluation_knots(), degree, span, x, &mut local);
+                local[degree]
+            }
+        }
+    }
+
+    /// The value for degree `N − 1`.
+    fn evaluate_degree<const N: usize>(&self, span: usize, x: f64) -> P {
+        let first = span - (N - 1);
+        let mut local: [P; N] = if self.space.is_periodic() {
+            std::array::from_fn(|j| self.evaluation_coefficient(first + j))
+        } else {
+            self.coefficients[first..][..N].try_into().expect("as many as asked for")
+        };
+        de_boor(self.space.evaluation_knots(), N - 1, span, x, &mut local);
+        local[N - 1]
     }
 
     /// `p, p′, …` up to the derivative of order `count`, the limits from `side` at a knot.
@@ -175,10 +196,13 @@ impl<P: Point> Spline<P> {
 }
 
 /// De Boor's algorithm in place: `local[0..=degree]` holds `c` for `k = span − degree … span`, the value ends in `local[degree]`.
-fn de_boor<P: Point>(knots: &[f64], degree: usize, span: usize, x: f64, local: &mut [P; MAX_DEGREE + 1]) {
+#[inline(always)]
+fn de_boor<P: Point>(knots: &[f64], degree: usize, span: usize, x: f64, local: &mut [P]) {
+    let (knots, local) = (&knots[span + 1 - degree..=span + degree], &mut local[..=degree]);
     for i in 0..degree {
         for j in (i + 1..=degree).rev() {
-            let k = span + j - degree;
+            // Entry 0 is ξₖ with k = span + 1 − degree.
+            let k = j - 1;
             let gamma = (x - knots[k]) / (knots[k + degree - i] - knots[k]);
             local[j] = local[j - 1].mix(local[j], gamma);
         }
