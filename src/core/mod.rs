@@ -42,7 +42,9 @@
 //! | B.1 Degree elevation and reduction | `spline_curve/{degree, degree_reduction, uniform_reduction}` |
 //! | B.2 Knot removal | `spline_curve/{knot_removal, removal_within}` |
 //! | B.3 Measured deviation | `spline_curve/{deviation, hausdorff}` |
+//! | B.4 Arc length | `spline_curve/arc_length`, `bezier/arc_length` |
 //! | B.6 Intersections | `spline_curve/{line_intersection, curve_intersection, self_intersection}`, `rational_bezier/intersection` |
+//! | B.8 Rational tessellation | `rational_bezier/chord_bound`, `spline_curve/chord_polygon` |
 //! | B.12 Circles, arcs and conics | `rational_bezier/{circle, conic_arc}` |
 //! | closest points | `spline_curve/closest_point`, `rational_bezier/closest_point` |
 //!

@@ -15,8 +15,10 @@
 //! | `conic_arc` | 3.4 arcs of an implicit conic and back |
 //! | `extended_conic` | 3.4 conics with a middle weight of any sign |
 //! | `conic_construction` | B.12 conics through points and with tangents |
+//! | `chord_bound` | B.8 distance from the chord |
 //! | `circle` | B.12 circles, arcs and ellipses of degree 2 and more |
 
+mod chord_bound;
 mod circle;
 mod closest_point;
 mod conic;

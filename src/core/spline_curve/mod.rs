@@ -20,13 +20,17 @@
 //! | `knot_removal`, `removal_within` | the nearest curve with one knot less, and with as few knots as a tolerance allows |
 //! | `deviation`, `hausdorff` | certified distance at equal parameters, sampled distance of two point sets |
 //! | `line_intersection`, `curve_intersection`, `self_intersection` | B.6 where a curve meets a line, another curve, itself |
+//! | `arc_length` | B.4 arc length and its inverse |
+//! | `chord_polygon` | B.8 points whose polygon is within a tolerance |
 //! | `closest_point` | the point of a curve closest to a given point |
 //! | `curvature` | frames, signed curvature, osculating circles |
 
+mod arc_length;
 mod batch;
 mod bezier_conversion;
 mod bezier_form;
 mod blossom;
+mod chord_polygon;
 mod closest_point;
 mod curvature;
 mod curve_intersection;
@@ -56,6 +60,7 @@ mod tessellation;
 mod trim;
 mod uniform_reduction;
 
+pub use arc_length::ArcLength;
 pub use bezier_form::{BezierPieces, BezierSegment, RationalSegment};
 pub use blossom::{LabelBetween, label_closure, labels_between};
 pub use closest_point::ClosestPoint;
