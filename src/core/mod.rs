@@ -43,10 +43,11 @@
 //! | B.2 Knot removal | `spline_curve/{knot_removal, removal_within}` |
 //! | B.3 Measured deviation | `spline_curve/{deviation, hausdorff}` |
 //! | B.4 Arc length | `spline_curve/arc_length`, `bezier/arc_length` |
+//! | B.5 Closest points | `spline_curve/{closest_point, foot_points}`, `rational_bezier/closest_point`, `bounding_tree` |
 //! | B.6 Intersections | `spline_curve/{line_intersection, curve_intersection, self_intersection}`, `rational_bezier/intersection` |
+//! | B.7 Inflections, vertices, boxes, torsion | `spline_curve/{curvature, inflections, vertices, tight_box}`, `bezier/{curvature, inflections}` |
 //! | B.8 Rational tessellation | `rational_bezier/chord_bound`, `spline_curve/chord_polygon` |
 //! | B.12 Circles, arcs and conics | `rational_bezier/{circle, conic_arc}` |
-//! | closest points | `spline_curve/closest_point`, `rational_bezier/closest_point` |
 //!
 //! # Notation and conventions
 //!
@@ -63,6 +64,7 @@
 
 pub mod approximation;
 pub mod bezier;
+pub mod bounding_tree;
 pub mod bspline;
 pub mod domain;
 pub mod finite_element;

@@ -1,22 +1,26 @@
-//! The point of a curve closest to a given point.
+//! The points of a curve closest to a given point.
 //!
-//! Branch and bound on the Bezier pieces: a piece with positive weights lies in the box of its projected control points, so the
-//! distance to that box bounds the distance to the piece from below. The nearest box is halved until it is flat and small, and
-//! Newton's method on `(r(t) − q)·r′(t) = 0`, kept inside the piece, finishes. Course: beyond, section B.5.
+//! The boxes of the Bezier pieces stand in a [`BoundingTree`]: a piece whose box is further away than a point that is known is not looked at. In the others
+//! the sign changes of the [foot polynomial](super::foot_polynomial) decide: without one only the ends count; one, from falling to growing distance, is a minimum that
+//! Newton's method in a bracket finds; the zeros of all others are found together. A tree that is prepared once answers without allocation, but for pieces with
+//! several sign changes. Course: beyond, section B.5.
 
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
+use std::collections::BTreeMap;
 
-use crate::core::bspline::SplineError;
+use crate::core::bounding_tree::{BoundingBox, BoundingTree, BoundingTreeError};
+use crate::core::bspline::{MAX_DEGREE, SplineError};
 use crate::core::point::Point;
 use crate::core::rational_bezier::Projective;
+use crate::core::root_finding::{Zeros, bernstein_zeros};
 use crate::core::spline_curve::Nurbs;
+use crate::core::spline_curve::curve_intersection::check_tolerance;
+use crate::core::spline_curve::foot_polynomial::FootPolynomial;
+use crate::core::spline_curve::local_piece::LocalPiece;
+use crate::core::spline_curve::piecewise_sign::PieceSigns;
+use crate::core::triangular_scheme::collapse;
 
-/// Pieces are not halved below this share of the parameter interval; Newton's method does the rest.
-const SMALLEST_PIECE: f64 = 1e-6;
-
-/// Halvings after which the best point found so far is taken: reached only by curves that follow a circle around the point.
-const MAX_HALVINGS: usize = 20_000;
+/// The coefficients of a foot polynomial: its degree is `3n − 2` at most.
+const MAX_COEFFICIENTS: usize = 3 * MAX_DEGREE - 1;
 
 /// The place of a curve that is closest to a given point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,153 +33,369 @@ pub struct ClosestPoint<P> {
     pub distance: f64,
 }
 
-/// A piece that waits, the one with the smallest lower bound first.
-struct Waiting<H> {
-    bound: f64,
-    interval: (f64, f64),
-    points: Vec<H>,
+/// A curve prepared for many questions about distances.
+///
+/// Memory is linear in the number of control points times the degree, the time of a question for a curve that does not fill the plane logarithmic in the
+/// number of pieces.
+///
+/// ```
+/// use glam::DVec2;
+/// use spline_lab::core::spline_curve::{ClosestPointTree, Nurbs};
+///
+/// let circle = ClosestPointTree::new(&Nurbs::circle(DVec2::ZERO, 1.0)?)?;
+/// let nearest = circle.closest_point(DVec2::new(3.0, 4.0))?;
+/// assert!((nearest.point - DVec2::new(0.6, 0.8)).length() < 1e-15);
+/// assert!(circle.is_within(DVec2::new(3.0, 4.0), 4.1)?);
+/// assert_eq!(circle.closest_points(DVec2::ZERO, 1e-9).unwrap_err().name(), "Degenerate");
+/// # Ok::<(), spline_lab::core::bspline::SplineError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct ClosestPointTree<P> {
+    pub(super) pieces: Vec<(LocalPiece<P>, FootPolynomial<P>)>,
+    tree: BoundingTree<3>,
+    pub(super) is_closed: bool,
 }
 
-impl<H> PartialEq for Waiting<H> {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
+/// The best place found: squared distance, piece, parameter in it.
+#[derive(Clone, Copy)]
+struct Best {
+    squared: f64,
+    piece: usize,
+    at: f64,
 }
 
-impl<H> Eq for Waiting<H> {}
-
-impl<H> PartialOrd for Waiting<H> {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl<H> Ord for Waiting<H> {
-    fn cmp(&self, other: &Self) -> Ordering {
-        // A binary heap gives the largest first.
-        other.bound.total_cmp(&self.bound)
-    }
-}
-
-impl<P: Projective> Nurbs<P> {
-    /// The point of the curve closest to `place`; of several the one that is found first.
-    ///
-    /// The distance is exact up to rounding for a curve whose distance from `place` varies.
+impl<P: Projective> ClosestPointTree<P> {
+    /// Prepares `curve`, in time `O(m log m)` for `m` control points.
     ///
     /// # Errors
     ///
-    /// `NonFinite` if `place` is not finite.
+    /// `NonFinite` where products of coordinates overflow.
+    pub fn new(curve: &Nurbs<P>) -> Result<Self, SplineError> {
+        let mut pieces = Vec::new();
+        let mut boxes = Vec::new();
+        for (index, piece) in curve.local_pieces()?.into_iter().enumerate() {
+            let overflow = SplineError::NonFinite { what: "size of piece", index, value: piece.extent };
+            let foot = FootPolynomial::new(&piece);
+            if !foot.is_finite() {
+                return Err(overflow);
+            }
+            let weight = |j: usize| piece.weights.get(j).copied().unwrap_or(1.0);
+            let points = piece
+                .numerators
+                .iter()
+                .enumerate()
+                .map(|(j, &p)| coordinates(p * weight(j).recip() + piece.origin));
+            boxes.push(BoundingBox::of_points(points).map_err(|_| overflow)?);
+            pieces.push((piece, foot));
+        }
+        let tree = BoundingTree::new(&boxes).map_err(|error| match error {
+            BoundingTreeError::StepLimit { value, limit } => {
+                SplineError::StepLimit { what: "pieces", value, limit }
+            }
+            _ => SplineError::Empty { what: "pieces" },
+        })?;
+        Ok(Self { pieces, tree, is_closed: curve.space().is_periodic() })
+    }
+
+    /// The point of the curve closest to `place`, of several one of them; the distance is exact up to rounding, also where the parameter is not, because the
+    /// distance hardly changes.
+    ///
+    /// # Errors
+    ///
+    /// `NonFinite` if `place` is not finite or the squared distance overflows.
     pub fn closest_point(&self, place: P) -> Result<ClosestPoint<P>, SplineError> {
+        let best = self.search(place, f64::INFINITY, |_| false)?;
+        let value = f64::INFINITY;
+        let best = best.ok_or(SplineError::NonFinite { what: "squared distance", index: 0, value })?;
+        Ok(self.place_at(best.piece, best.at, place))
+    }
+
+    /// Whether a point of the curve is nearer to `place` than `distance`; stops at the first one.
+    ///
+    /// # Errors
+    ///
+    /// `NonFinite` if `place` is not finite or `distance` is not a number.
+    pub fn is_within(&self, place: P, distance: f64) -> Result<bool, SplineError> {
+        if distance.is_nan() {
+            return Err(SplineError::NonFinite { what: "distance", index: 0, value: distance });
+        }
+        let limit = distance.max(0.0) * distance.max(0.0);
+        Ok(self.search(place, limit, |squared| squared < limit)?.is_some())
+    }
+
+    /// All places at which the distance from `place` is locally smallest and within `tolerance` of the smallest, by parameter. The ends of an open curve count, the seam
+    /// of a closed one is none.
+    ///
+    /// # Errors
+    ///
+    /// `NonFinite` as [`Self::closest_point`]; `InvalidTolerance`; `Degenerate` if the distance is the smallest along a whole piece, as it is for the centre of a circle.
+    pub fn closest_points(&self, place: P, tolerance: f64) -> Result<Vec<ClosestPoint<P>>, SplineError> {
+        check_tolerance(tolerance)?;
+        let limit = self.closest_point(place)?.distance + tolerance;
+        let mut near = Vec::new();
+        let squared = limit * limit * (1.0 + 4.0 * f64::EPSILON);
+        self.tree.nearest(coordinates(place), squared, |piece, limit| {
+            near.push(piece);
+            limit
+        });
+        let mut signs: BTreeMap<usize, PieceSigns> = BTreeMap::new();
+        let mut found = Vec::new();
+        let take = |found: &mut Vec<ClosestPoint<P>>, piece: usize, at: f64| {
+            let candidate = self.place_at(piece, at, place);
+            if candidate.distance <= limit {
+                found.push(candidate);
+            }
+        };
+        let count = self.pieces.len();
+        for piece in near {
+            // The pieces before, here and behind; none beyond the ends of an open curve.
+            let before =
+                if self.is_closed { Some((piece + count - 1) % count) } else { piece.checked_sub(1) };
+            let behind = if self.is_closed {
+                Some((piece + 1) % count)
+            } else {
+                Some(piece + 1).filter(|&i| i < count)
+            };
+            let [before, here, behind] = [before, Some(piece), behind].map(|index| {
+                index.map(|index| signs.entry(index).or_insert_with(|| self.signs(index, place)).clone())
+            });
+            let Some(here) = here else { continue };
+            if here.is_zero() && self.place_at(piece, 0.5, place).distance <= limit {
+                let parameter = self.pieces[piece].0.interval.0;
+                return Err(SplineError::Degenerate {
+                    what: "the closest point of a piece that begins",
+                    parameter,
+                });
+            }
+            for (at, ..) in here.zeros.iter().filter(|zero| zero.1 < 0 && zero.2 > 0) {
+                take(&mut found, piece, *at);
+            }
+            // Not growing before, not falling behind.
+            if here.ends[0] > 0 && before.is_none_or(|other| other.ends[1] < 0) {
+                take(&mut found, piece, 0.0);
+            }
+            // The minimum at a joint is that of the piece behind it.
+            if here.ends[1] < 0 && behind.is_none() {
+                take(&mut found, piece, 1.0);
+            } else if here.ends[1] < 0 && behind.is_some_and(|other| other.ends[0] > 0) {
+                take(&mut found, (piece + 1) % count, 0.0);
+            }
+        }
+        found.sort_by(|a, b| a.parameter.total_cmp(&b.parameter));
+        found.dedup_by(|a, b| a.parameter == b.parameter);
+        Ok(found)
+    }
+
+    /// The signs of the foot polynomial of a piece.
+    pub(super) fn signs(&self, piece: usize, place: P) -> PieceSigns {
+        let (local, foot) = &self.pieces[piece];
+        let q = place - local.origin;
+        let mut values = vec![0.0; foot.len()];
+        foot.write(q, &mut values);
+        PieceSigns::new(&values, foot.noise(q))
+    }
+
+    /// The place of a piece at `at` in `[0, 1]`.
+    pub(super) fn place_at(&self, piece: usize, at: f64, place: P) -> ClosestPoint<P> {
+        let local = &self.pieces[piece].0;
+        let (a, b) = local.interval;
+        let offset = local.offset_at(at);
+        let distance = (offset - (place - local.origin)).norm();
+        ClosestPoint { parameter: a.mix(b, at), point: local.origin + offset, distance }
+    }
+
+    /// The best place nearer than the square root of `limit`; ends early if `is_enough`.
+    fn search(
+        &self,
+        place: P,
+        limit: f64,
+        is_enough: impl Fn(f64) -> bool,
+    ) -> Result<Option<Best>, SplineError> {
         if !place.is_finite() {
             let value = (0..P::DIMENSION).map(|i| place.coordinate(i)).find(|value| !value.is_finite());
             return Err(SplineError::NonFinite { what: "place", index: 0, value: value.unwrap_or(f64::NAN) });
         }
-        let (left, right) = self.space().parameter_interval();
-        let at = |parameter: f64| -> Result<ClosestPoint<P>, SplineError> {
-            let point = self.evaluate(parameter)?;
-            Ok(ClosestPoint { parameter, point, distance: (point - place).norm() })
+        let mut best = Best { squared: limit, piece: usize::MAX, at: 0.0 };
+        self.tree.nearest(coordinates(place), limit, |piece, _| {
+            self.improve(&mut best, piece, place);
+            // No key is below 0: nothing else is visited.
+            if best.piece != usize::MAX && is_enough(best.squared) { 0.0 } else { best.squared }
+        });
+        Ok((best.piece != usize::MAX).then_some(best))
+    }
+
+    /// Looks for a nearer place in one piece.
+    fn improve(&self, best: &mut Best, piece: usize, place: P) {
+        let (local, foot) = &self.pieces[piece];
+        let q = place - local.origin;
+        let mut consider = |at: f64| {
+            let away = local.offset_at(at) - q;
+            let squared = (0..P::DIMENSION).map(|i| away.coordinate(i) * away.coordinate(i)).sum::<f64>();
+            if squared < best.squared {
+                *best = Best { squared, piece, at };
+            }
         };
-        let mut best = at(left)?;
-        let mut waiting: BinaryHeap<Waiting<P::Homogeneous>> = BinaryHeap::new();
-        for segment in self.homogeneous().bezier_form() {
-            best = nearer(best, at(segment.interval.1)?);
-            let bound = box_distance::<P>(&segment.points, place);
-            waiting.push(Waiting { bound, interval: segment.interval, points: segment.points });
+        let mut buffer = [0.0; MAX_COEFFICIENTS];
+        let values = &mut buffer[..foot.len()];
+        foot.write(q, values);
+        let (mut changes, mut place_of_change) = (0, 0);
+        for k in 1..values.len() {
+            if (values[k - 1] < 0.0) != (values[k] < 0.0) {
+                changes += 1;
+                place_of_change = k;
+            }
         }
-        let mut halvings = 0;
-        while let Some(piece) = waiting.pop() {
-            if piece.bound >= best.distance || halvings >= MAX_HALVINGS {
-                break;
-            }
-            halvings += 1;
-            let (a, b) = piece.interval;
-            let middle = a + 0.5 * (b - a);
-            best = nearer(best, at(middle)?);
-            if b - a <= SMALLEST_PIECE * (right - left) || middle <= a || middle >= b {
-                best = nearer(best, at(self.newton(place, middle, a, b)?)?);
-                continue;
-            }
-            // A first step of Newton's method from a piece that is already small finds good bounds early.
-            if b - a <= 0.02 * (right - left) {
-                best = nearer(best, at(self.newton(place, middle, a, b)?)?);
-            }
-            let (first, second) = halve(piece.points);
-            for (interval, points) in [((a, middle), first), ((middle, b), second)] {
-                let bound = box_distance::<P>(&points, place);
-                if bound < best.distance {
-                    waiting.push(Waiting { bound, interval, points });
+        match (changes, values[0] < 0.0) {
+            // The distance grows, falls, or grows up to a largest value.
+            (0, false) => consider(0.0),
+            (0, true) => consider(1.0),
+            (1, false) => [0.0, 1.0].into_iter().for_each(consider),
+            (1, true) => consider(minimum(values, place_of_change)),
+            _ => match bernstein_zeros(values, foot.noise(q)) {
+                Zeros::Everywhere => [0.0, 1.0].into_iter().for_each(consider),
+                Zeros::Isolated(zeros) => {
+                    zeros.iter().map(|zero| zero.at).chain([0.0, 1.0]).for_each(consider);
                 }
+            },
+        }
+    }
+}
+
+impl<P: Point> LocalPiece<P> {
+    /// The point at `at` in `[0, 1]`, seen from the origin of the piece.
+    fn offset_at(&self, at: f64) -> P {
+        let n = self.degree();
+        let mut points = [P::ZERO; MAX_DEGREE + 1];
+        points[..=n].copy_from_slice(&self.numerators);
+        let point = collapse(&mut points[..=n], at);
+        if self.weights.is_empty() {
+            return point;
+        }
+        let mut weights = [0.0; MAX_DEGREE + 1];
+        weights[..=n].copy_from_slice(&self.weights);
+        point * collapse(&mut weights[..=n], at).recip()
+    }
+}
+
+impl<P: Projective> Nurbs<P> {
+    /// The point of the curve closest to `place`. For many questions prepare a [`ClosestPointTree`].
+    ///
+    /// # Errors
+    ///
+    /// As [`ClosestPointTree::closest_point`].
+    pub fn closest_point(&self, place: P) -> Result<ClosestPoint<P>, SplineError> {
+        ClosestPointTree::new(self)?.closest_point(place)
+    }
+
+    /// All closest points of the curve, see [`ClosestPointTree::closest_points`].
+    ///
+    /// # Errors
+    ///
+    /// As [`ClosestPointTree::closest_points`].
+    pub fn closest_points(&self, place: P, tolerance: f64) -> Result<Vec<ClosestPoint<P>>, SplineError> {
+        ClosestPointTree::new(self)?.closest_points(place, tolerance)
+    }
+}
+
+/// The coordinates, with zeros up to the third.
+fn coordinates<P: Point>(point: P) -> [f64; 3] {
+    [0, 1, 2].map(|i| if i < P::DIMENSION { point.coordinate(i) } else { 0.0 })
+}
+
+/// The zero of a polynomial whose coefficients are negative before index `k` and not from there on: Newton's method in a bracket, from where the
+/// control polygon is 0.
+fn minimum(c: &[f64], k: usize) -> f64 {
+    let n = c.len() - 1;
+    let (mut low, mut high) = (0.0, 1.0);
+    let mut t = ((k - 1) as f64 + c[k - 1] / (c[k - 1] - c[k])) / n as f64;
+    let mut buffer = [0.0; MAX_COEFFICIENTS];
+    // Halving alone takes 53 steps to the last digit.
+    for _ in 0..60 {
+        let scratch = &mut buffer[..=n];
+        scratch.copy_from_slice(c);
+        for count in (2..=n).rev() {
+            for j in 0..count {
+                scratch[j] = scratch[j].mix(scratch[j + 1], t);
             }
         }
-        let polished = self.newton(place, best.parameter, left, right)?;
-        Ok(nearer(best, at(polished)?))
-    }
-
-    /// A few Newton steps on `(r − q)·r′ = 0` from `start`, kept in `[low, high]`.
-    fn newton(&self, place: P, start: f64, low: f64, high: f64) -> Result<f64, SplineError> {
-        let mut parameter = start;
-        for _ in 0..8 {
-            let values = self.derivatives(parameter, 2, crate::core::bspline::Side::Right)?;
-            let away = values[0] - place;
-            let slope = dot(values[1], values[1]) + dot(away, values[2]);
-            let step = dot(away, values[1]) / slope;
-            if !step.is_finite() || slope <= 0.0 {
-                break;
-            }
-            let next = (parameter - step).clamp(low, high);
-            if (next - parameter).abs() <= 1e-16 * (high - low) {
-                break;
-            }
-            parameter = next;
+        let slope = n as f64 * (scratch[1.min(n)] - scratch[0]);
+        let value = scratch[0].mix(scratch[1.min(n)], t);
+        if value == 0.0 {
+            break;
         }
-        Ok(parameter)
-    }
-}
-
-fn dot<P: Point>(a: P, b: P) -> f64 {
-    (0..P::DIMENSION).map(|i| a.coordinate(i) * b.coordinate(i)).sum()
-}
-
-fn nearer<P>(a: ClosestPoint<P>, b: ClosestPoint<P>) -> ClosestPoint<P> {
-    if b.distance < a.distance { b } else { a }
-}
-
-/// Distance of `place` from the box of the projected control points.
-fn box_distance<P: Projective>(points: &[P::Homogeneous], place: P) -> f64 {
-    let mut squared = 0.0;
-    for axis in 0..P::DIMENSION {
-        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-        for &point in points {
-            let value = point.coordinate(axis) / point.coordinate(P::DIMENSION);
-            low = low.min(value);
-            high = high.max(value);
+        if value < 0.0 {
+            low = t;
+        } else {
+            high = t;
         }
-        let outside = (low - place.coordinate(axis)).max(place.coordinate(axis) - high).max(0.0);
-        squared += outside * outside;
-    }
-    squared.sqrt()
-}
-
-/// De Casteljau at 1/2: the control points of both halves.
-fn halve<H: Point>(mut points: Vec<H>) -> (Vec<H>, Vec<H>) {
-    let n = points.len() - 1;
-    let mut first = Vec::with_capacity(n + 1);
-    first.push(points[0]);
-    for step in 0..n {
-        for j in 0..n - step {
-            points[j] = (points[j] + points[j + 1]) * 0.5;
+        let newton = t - value / slope;
+        let next = if low < newton && newton < high { newton } else { 0.5 * (low + high) };
+        let step = (next - t).abs();
+        t = next;
+        if step <= 2.0 * f64::EPSILON || high - low <= f64::EPSILON {
+            break;
         }
-        first.push(points[0]);
     }
-    (first, points)
+    t
 }
 
 #[cfg(test)]
 mod tests {
-    use glam::DVec2;
+    use glam::{DVec2, DVec3};
+    use proptest::prelude::*;
 
     use super::*;
     use crate::core::bspline::SplineSpace;
+    use crate::core::spline_curve::FootKind;
+    use crate::core::spline_curve::samples::any_curve;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(48))]
+
+        #[test]
+        fn the_minimum_is_that_of_samples_of_both_parts_and_of_the_raised_curve(
+            curve in any_curve(1..=7), places in prop::array::uniform2(prop::array::uniform2(-12.0..12.0_f64).prop_map(DVec2::from)), share in 0.1..0.9_f64,
+        ) {
+            let tree = ClosestPointTree::new(&curve).unwrap();
+            let (a, b) = curve.space().parameter_interval();
+            let [one, other] = places.map(|place| tree.closest_point(place).unwrap().distance);
+            prop_assert!((one - other).abs() <= places[0].distance(places[1]) + 1e-12, "distances are 1-Lipschitz");
+            let place = places[0];
+            let nearest = tree.closest_point(place).unwrap();
+            for i in 0..=300 {
+                let sampled = curve.evaluate(a.mix(b, f64::from(i) / 300.0)).unwrap().distance(place);
+                prop_assert!(sampled >= one - 1e-12, "{sampled} beats {nearest:?}");
+            }
+            let on_curve = curve.evaluate(nearest.parameter).unwrap();
+            prop_assert!(on_curve.distance(nearest.point) < 1e-10, "{on_curve} at {nearest:?}");
+            prop_assert!(tree.is_within(place, one + 1e-9).unwrap() && !tree.is_within(place, one - 1e-9).unwrap(), "{one}");
+            let rotate = |point: DVec2| DVec2::from_angle(0.8).rotate(point) + DVec2::new(3.0, -4.0);
+            let image = Nurbs::new(curve.space().clone(), curve.points().iter().map(|&p| rotate(p)).collect(), curve.weights().to_vec()).unwrap();
+            prop_assert!((image.closest_point(rotate(place)).unwrap().distance - one).abs() < 1e-11, "rigid motion");
+            prop_assert!((curve.elevate_degree().unwrap().closest_point(place).unwrap().distance - one).abs() < 1e-9, "elevation");
+            if let (false, Ok((left, right))) = (curve.space().is_periodic(), curve.split(a.mix(b, share))) {
+                let parts = [left, right].map(|part| part.closest_point(place).unwrap().distance);
+                prop_assert!((parts[0].min(parts[1]) - one).abs() < 1e-10, "{parts:?} and {one}");
+            }
+        }
+
+        #[test]
+        fn all_closest_points_are_local_minima_with_the_closest_among_them(
+            curve in any_curve(2..=5), place in prop::array::uniform2(-9.0..9.0_f64).prop_map(DVec2::from), tolerance in 1e-9..3.0_f64,
+        ) {
+            let tree = ClosestPointTree::new(&curve).unwrap();
+            let Ok(found) = tree.closest_points(place, tolerance) else { return Ok(()) };
+            let nearest = tree.closest_point(place).unwrap();
+            let least = found.iter().map(|hit| hit.distance).fold(f64::INFINITY, f64::min);
+            prop_assert!((least - nearest.distance).abs() < 1e-9, "{found:?} without {nearest:?}");
+            prop_assert!(found.windows(2).all(|pair| pair[0].parameter < pair[1].parameter), "{found:?}");
+            let feet = tree.foot_points(place).unwrap();
+            let minima = feet.iter().filter(|foot| foot.kind == FootKind::Minimum && foot.foot.distance <= nearest.distance + tolerance);
+            let (a, b) = curve.space().parameter_interval();
+            let inner = found.iter().filter(|hit| curve.space().is_periodic() || (a < hit.parameter && hit.parameter < b));
+            prop_assert_eq!(inner.count(), minima.count(), "{:?} {:?}", found, feet);
+        }
+    }
 
     fn circle() -> Nurbs<DVec2> {
         let knots = vec![0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 3.0, 3.0];
@@ -240,5 +460,43 @@ mod tests {
                 assert!(sampled >= nearest.distance - 1e-12, "{place}: {sampled} at {t} beats {nearest:?}");
             }
         }
+    }
+
+    #[test]
+    fn space_curves_functions_and_high_degrees() {
+        let helix =
+            |k: i32| DVec3::new((0.7 * f64::from(k)).cos(), (0.7 * f64::from(k)).sin(), 0.3 * f64::from(k));
+        let space = SplineSpace::new(25, (0..60).map(f64::from).collect()).unwrap();
+        let weights = (0..34).map(|k| 1.0 + 0.5 * f64::from(k % 2)).collect();
+        let curve = Nurbs::new(space, (0..34).map(helix).collect(), weights).unwrap();
+        let nearest = curve.closest_point(DVec3::new(0.2, 0.1, 5.0)).unwrap();
+        for i in 0..=2000 {
+            let point = curve.evaluate(25.0.mix(34.0, f64::from(i) / 2000.0)).unwrap();
+            let sampled = point.distance(DVec3::new(0.2, 0.1, 5.0));
+            assert!(sampled >= nearest.distance - 1e-12, "{sampled} beats {nearest:?}");
+        }
+        let square = SplineSpace::new(2, vec![-1.0, 0.0, 0.0, 1.0, 1.0, 2.0]).unwrap();
+        let square = Nurbs::polynomial(square, vec![1.0, -1.0, 1.0]).unwrap();
+        let zeros = square.closest_points(0.25, 1e-9).unwrap();
+        assert_eq!(
+            zeros.iter().map(|zero| zero.parameter).collect::<Vec<_>>(),
+            [0.25, 0.75],
+            "(1 - 2t)^2 = 1/4"
+        );
+    }
+
+    #[test]
+    fn impossible_questions_are_refused() {
+        let tree = ClosestPointTree::new(&circle()).unwrap();
+        assert_eq!(tree.closest_point(DVec2::new(0.0, f64::NAN)).unwrap_err().name(), "NonFinite", "NaN");
+        assert_eq!(
+            tree.closest_point(DVec2::splat(1e300)).unwrap_err().name(),
+            "NonFinite",
+            "the square overflows"
+        );
+        assert_eq!(tree.is_within(DVec2::ZERO, f64::NAN).unwrap_err().name(), "NonFinite", "no distance");
+        assert_eq!(tree.is_within(DVec2::ZERO, -1.0), Ok(false), "nothing is nearer than 0");
+        assert_eq!(tree.closest_points(DVec2::X, 0.0).unwrap_err().name(), "InvalidTolerance", "0");
+        assert_eq!(tree.closest_points(DVec2::ZERO, 1e-9).unwrap_err().name(), "Degenerate", "the centre");
     }
 }

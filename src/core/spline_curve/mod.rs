@@ -22,8 +22,11 @@
 //! | `line_intersection`, `curve_intersection`, `self_intersection` | B.6 where a curve meets a line, another curve, itself |
 //! | `arc_length` | B.4 arc length and its inverse |
 //! | `chord_polygon` | B.8 points whose polygon is within a tolerance |
-//! | `closest_point` | the point of a curve closest to a given point |
-//! | `curvature` | frames, signed curvature, osculating circles |
+//! | `closest_point`, `foot_points` | B.5 the points of a curve closest to a given point, and all foot points |
+//! | `curvature` | frames, signed curvature and its derivative, osculating circles, torsion |
+//! | `inflections`, `vertices`, `curvature_polynomial` | B.7 where curvature changes sign, where it is extreme, and the polynomials behind |
+//! | `tight_box` | B.7 the smallest box, extreme points |
+//! | `local_piece`, `foot_polynomial`, `piecewise_sign` | B.5, B.7 what closest points and features are made of |
 
 mod arc_length;
 mod batch;
@@ -33,23 +36,29 @@ mod blossom;
 mod chord_polygon;
 mod closest_point;
 mod curvature;
+mod curvature_polynomial;
 mod curve_intersection;
 mod degree;
 mod degree_reduction;
 mod deviation;
 mod distance_bound;
 mod editing;
+mod foot_points;
+mod foot_polynomial;
 mod from_bezier;
 mod hausdorff;
 mod hull;
 mod hyperplane;
 mod hyperplane_intersection;
+mod inflections;
 mod insertion_scheme;
 mod join;
 mod knot_insertion;
 mod knot_removal;
 mod line_intersection;
+mod local_piece;
 mod nurbs;
+mod piecewise_sign;
 mod refinement_matrix;
 mod removal_within;
 #[cfg(test)]
@@ -57,23 +66,28 @@ mod samples;
 mod self_intersection;
 mod subdivision;
 mod tessellation;
+mod tight_box;
 mod trim;
 mod uniform_reduction;
+mod vertices;
 
 pub use arc_length::ArcLength;
 pub use bezier_form::{BezierPieces, BezierSegment, RationalSegment};
 pub use blossom::{LabelBetween, label_closure, labels_between};
-pub use closest_point::ClosestPoint;
-pub use curvature::{Frame, OsculatingCircle};
+pub use closest_point::{ClosestPoint, ClosestPointTree};
+pub use curvature::{Frame, OsculatingCircle, SpaceFrame};
+pub use curvature_polynomial::CurvatureChange;
 pub use curve_intersection::{CurveIntersection, Meeting};
 pub use degree::elevation_matrix;
 pub use degree_reduction::{DegreeReduction, ReductionEnds};
 pub use deviation::{Deviation, DeviationLimits, deviation, deviation_within};
 pub use distance_bound::{PolygonDistance, uniform_distance_factor};
+pub use foot_points::{FootKind, StationaryDistance};
 pub use hausdorff::hausdorff_sampled;
 pub use hull::{convex_hull, coordinate_ranges};
 pub use hyperplane::{Hyperplane, variation};
 pub use hyperplane_intersection::{HyperplaneIntersection, IntersectionKind};
+pub use inflections::CurveInflections;
 pub use insertion_scheme::InsertionScheme;
 pub use knot_removal::{KnotRemoval, NurbsKnotRemoval};
 pub use line_intersection::LineIntersection;
@@ -82,4 +96,6 @@ pub use refinement_matrix::refinement_matrix;
 pub use removal_within::{KnotReduction, NurbsKnotReduction};
 pub use subdivision::{subdivide_polygon, subdivision_mask};
 pub use tessellation::Tessellation;
+pub use tight_box::{Extreme, TightBox};
 pub use uniform_reduction::{UniformReduction, reduce_uniformly};
+pub use vertices::{Vertex, VertexKind, Vertices};

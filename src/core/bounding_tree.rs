@@ -1,0 +1,437 @@
+//! A binary tree of boxes over items of any kind: Bezier pieces, segments, triangles.
+//!
+//! The items are halved by the median of their centres along the longest side of the box of all centres, until at most four are left. A tree over `N` items takes
+//! memory linear in `N`, is built in `O(N log N)` and has depth `log₂ N` whatever the items look like. All queries are one walk: a subtree is passed over
+//! if the key of its box, which no item in it can undercut, reaches the limit, and of two children the one with the smaller key comes first, so
+//! that the limit falls early. Queries for one place do not allocate. J. Goldsmith, J. Salmon, *Automatic creation of object hierarchies for ray tracing*, 1987,
+//! for trees of boxes; N. Roussopoulos, S. Kelley, F. Vincent, *Nearest neighbor queries*, 1995, for the walk.
+
+use thiserror::Error;
+
+/// Most items in a leaf.
+const LEAF: usize = 4;
+/// The walk keeps one waiting child for each level, and a tree over fewer than 2³² items has at most 32.
+const MAX_WAITING: usize = 40;
+
+/// What can be wrong with boxes.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum BoundingTreeError {
+    /// No points.
+    #[error("a box of no points")]
+    Empty,
+    /// A coordinate is infinite or not a number.
+    #[error("coordinate {axis} is {value}, not a finite number")]
+    NonFinite {
+        /// The index of the coordinate.
+        axis: usize,
+        /// The number.
+        value: f64,
+    },
+    /// The low corner is above the high one.
+    #[error("the box reaches from {low} to {high} along axis {axis}")]
+    EmptyInterval {
+        /// The index of the coordinate.
+        axis: usize,
+        /// Its lower end.
+        low: f64,
+        /// Its upper end.
+        high: f64,
+    },
+    /// More items than indices.
+    #[error("{value} items are above the limit {limit}")]
+    StepLimit {
+        /// The number of items.
+        value: usize,
+        /// The largest possible number.
+        limit: usize,
+    },
+}
+
+impl BoundingTreeError {
+    /// The name of the error in the conventions of the course.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Empty => "Empty",
+            Self::NonFinite { .. } => "NonFinite",
+            Self::EmptyInterval { .. } => "EmptyInterval",
+            Self::StepLimit { .. } => "StepLimit",
+        }
+    }
+}
+
+/// The points `x` with `low ≤ x ≤ high` in every coordinate, all finite; it may be flat.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BoundingBox<const D: usize> {
+    low: [f64; D],
+    high: [f64; D],
+}
+
+impl<const D: usize> BoundingBox<D> {
+    /// The box between two corners.
+    ///
+    /// # Errors
+    ///
+    /// `NonFinite`, `EmptyInterval`.
+    pub fn new(low: [f64; D], high: [f64; D]) -> Result<Self, BoundingTreeError> {
+        for axis in 0..D {
+            let (low, high) = (low[axis], high[axis]);
+            if let Some(value) = [low, high].into_iter().find(|value| !value.is_finite()) {
+                return Err(BoundingTreeError::NonFinite { axis, value });
+            }
+            if low > high {
+                return Err(BoundingTreeError::EmptyInterval { axis, low, high });
+            }
+        }
+        Ok(Self { low, high })
+    }
+
+    /// The smallest box that contains all `points`.
+    ///
+    /// # Errors
+    ///
+    /// `Empty`, `NonFinite`.
+    pub fn of_points(points: impl IntoIterator<Item = [f64; D]>) -> Result<Self, BoundingTreeError> {
+        let mut bounds: Option<Self> = None;
+        for point in points {
+            let point = Self::new(point, point)?;
+            bounds = Some(bounds.map_or(point, |bounds| bounds.union(&point)));
+        }
+        bounds.ok_or(BoundingTreeError::Empty)
+    }
+
+    /// The corner with the smallest coordinates.
+    pub fn low(&self) -> [f64; D] {
+        self.low
+    }
+
+    /// The corner with the largest coordinates.
+    pub fn high(&self) -> [f64; D] {
+        self.high
+    }
+
+    /// The smallest box that contains both.
+    #[must_use]
+    pub fn union(&self, other: &Self) -> Self {
+        let mut both = *self;
+        for axis in 0..D {
+            both.low[axis] = both.low[axis].min(other.low[axis]);
+            both.high[axis] = both.high[axis].max(other.high[axis]);
+        }
+        both
+    }
+
+    /// The squared distance of a point, 0 inside.
+    pub fn distance_squared(&self, point: &[f64; D]) -> f64 {
+        let outside =
+            |axis: usize| (self.low[axis] - point[axis]).max(point[axis] - self.high[axis]).max(0.0);
+        (0..D).map(|axis| outside(axis) * outside(axis)).sum()
+    }
+
+    /// Whether no coordinate keeps the boxes further apart than `gap`.
+    pub fn is_near(&self, other: &Self, gap: f64) -> bool {
+        (0..D)
+            .all(|axis| self.low[axis] - other.high[axis] <= gap && other.low[axis] - self.high[axis] <= gap)
+    }
+
+    /// The smallest `s ≥ 0` for which `origin + s·direction` is in the box; infinite if the ray misses it.
+    pub fn entry(&self, origin: &[f64; D], direction: &[f64; D]) -> f64 {
+        let (mut enter, mut leave) = (0.0_f64, f64::INFINITY);
+        for axis in 0..D {
+            if direction[axis] == 0.0 {
+                if origin[axis] < self.low[axis] || origin[axis] > self.high[axis] {
+                    return f64::INFINITY;
+                }
+                continue;
+            }
+            let [a, b] = [self.low[axis], self.high[axis]].map(|x| (x - origin[axis]) / direction[axis]);
+            enter = enter.max(a.min(b));
+            leave = leave.min(a.max(b));
+        }
+        if enter <= leave { enter } else { f64::INFINITY }
+    }
+
+    fn centre(&self, axis: usize) -> f64 {
+        0.5 * self.low[axis] + 0.5 * self.high[axis]
+    }
+}
+
+/// Items `first..last` of the tree's own sequence, in `bounds`. An inner node has its left child behind it.
+#[derive(Clone, Debug)]
+struct Node<const D: usize> {
+    bounds: BoundingBox<D>,
+    first: u32,
+    last: u32,
+    /// Index of the right child; 0 in a leaf.
+    right: u32,
+}
+
+/// A tree over boxes, which are known by their index in the list it was built from.
+#[derive(Clone, Debug)]
+pub struct BoundingTree<const D: usize> {
+    nodes: Vec<Node<D>>,
+    /// Index and box of the items, those of a node side by side.
+    items: Vec<(u32, BoundingBox<D>)>,
+}
+
+impl<const D: usize> BoundingTree<D> {
+    /// The tree over `boxes`; none give a tree in which nothing is found.
+    ///
+    /// # Errors
+    ///
+    /// `StepLimit` for 2³² boxes or more.
+    pub fn new(boxes: &[BoundingBox<D>]) -> Result<Self, BoundingTreeError> {
+        let limit = u32::MAX as usize;
+        if boxes.len() > limit {
+            return Err(BoundingTreeError::StepLimit { value: boxes.len(), limit });
+        }
+        let items = (0_u32..).zip(boxes.iter().copied()).collect();
+        let mut tree = Self { nodes: Vec::with_capacity(boxes.len()), items };
+        if !boxes.is_empty() {
+            tree.grow(0, boxes.len());
+        }
+        Ok(tree)
+    }
+
+    /// Adds the node over the items `first..last` and everything below it.
+    fn grow(&mut self, first: usize, last: usize) {
+        let items = &mut self.items[first..last];
+        let bounds = items.iter().skip(1).fold(items[0].1, |all, (_, item)| all.union(item));
+        let index = self.nodes.len();
+        self.nodes.push(Node { bounds, first: first as u32, last: last as u32, right: 0 });
+        if items.len() <= LEAF {
+            return;
+        }
+        let spread = |axis: usize| {
+            let centres = || items.iter().map(|(_, item)| item.centre(axis));
+            centres().fold(f64::NEG_INFINITY, f64::max) - centres().fold(f64::INFINITY, f64::min)
+        };
+        let axis = (0..D).max_by(|&a, &b| spread(a).total_cmp(&spread(b))).unwrap_or(0);
+        let half = items.len() / 2;
+        items.select_nth_unstable_by(half, |a, b| a.1.centre(axis).total_cmp(&b.1.centre(axis)));
+        self.grow(first, first + half);
+        self.nodes[index].right = self.nodes.len() as u32;
+        self.grow(first + half, last);
+    }
+
+    /// The number of items.
+    pub fn len(&self) -> usize {
+        self.items.len()
+    }
+
+    /// Whether there are no items.
+    pub fn is_empty(&self) -> bool {
+        self.items.is_empty()
+    }
+
+    /// The box of all items.
+    pub fn bounds(&self) -> Option<BoundingBox<D>> {
+        self.nodes.first().map(|node| node.bounds)
+    }
+
+    /// Visits the items whose boxes are nearer to `point` than the square root of the limit, near ones early. `visit` is given an item and the limit, the square of a
+    /// distance, and returns the new limit: the squared distance of the item if that is smaller. The last limit is returned.
+    ///
+    /// ```
+    /// use spline_lab::core::bounding_tree::{BoundingBox, BoundingTree};
+    ///
+    /// let places = [[0.0, 0.0], [3.0, 1.0], [5.0, 5.0]];
+    /// let boxes = places.map(|place| BoundingBox::new(place, place).expect("finite"));
+    /// let tree = BoundingTree::new(&boxes)?;
+    /// let mut nearest = None;
+    /// let squared = tree.nearest([4.0, 1.0], f64::INFINITY, |item, limit| {
+    ///     let squared = boxes[item].distance_squared(&[4.0, 1.0]);
+    ///     if squared < limit {
+    ///         nearest = Some(item);
+    ///     }
+    ///     squared.min(limit)
+    /// });
+    /// assert_eq!((nearest, squared), (Some(1), 1.0));
+    /// # Ok::<(), spline_lab::core::bounding_tree::BoundingTreeError>(())
+    /// ```
+    pub fn nearest(&self, point: [f64; D], limit: f64, visit: impl FnMut(usize, f64) -> f64) -> f64 {
+        self.walk(|bounds| bounds.distance_squared(&point), limit, visit)
+    }
+
+    /// Visits the items whose boxes the ray `origin + s·direction`, `s ≥ 0`, enters before the limit, near ones early. `visit` is given an item and the limit and
+    /// returns the new limit: the `s` at which the ray hits the item if that is smaller. The last limit is returned.
+    pub fn along_ray(
+        &self,
+        origin: [f64; D],
+        direction: [f64; D],
+        limit: f64,
+        visit: impl FnMut(usize, f64) -> f64,
+    ) -> f64 {
+        self.walk(|bounds| bounds.entry(&origin, &direction), limit, visit)
+    }
+
+    /// Visits the items whose boxes are not further than `gap` from `bounds` in any coordinate, in no order.
+    pub fn near(&self, bounds: &BoundingBox<D>, gap: f64, mut visit: impl FnMut(usize)) {
+        let key = |other: &BoundingBox<D>| if bounds.is_near(other, gap) { 0.0 } else { 1.0 };
+        self.walk(key, 1.0, |item, limit| {
+            visit(item);
+            limit
+        });
+    }
+
+    /// Visits the items whose boxes contain `point`, in no order.
+    pub fn containing(&self, point: [f64; D], mut visit: impl FnMut(usize)) {
+        let key = |bounds: &BoundingBox<D>| bounds.distance_squared(&point);
+        self.walk(key, f64::MIN_POSITIVE, |item, limit| {
+            visit(item);
+            limit
+        });
+    }
+
+    /// All items whose boxes have a key below the limit, which `visit` may lower.
+    fn walk(
+        &self,
+        key: impl Fn(&BoundingBox<D>) -> f64,
+        mut limit: f64,
+        mut visit: impl FnMut(usize, f64) -> f64,
+    ) -> f64 {
+        let mut waiting = [(0_u32, 0.0_f64); MAX_WAITING];
+        let mut count = 0;
+        let Some(root) = self.nodes.first() else { return limit };
+        let (mut index, mut least) = (0, key(&root.bounds));
+        loop {
+            if least < limit {
+                let node = &self.nodes[index];
+                if node.right == 0 {
+                    for (item, bounds) in &self.items[node.first as usize..node.last as usize] {
+                        if key(bounds) < limit {
+                            limit = visit(*item as usize, limit);
+                        }
+                    }
+                } else {
+                    let children = [index + 1, node.right as usize];
+                    let keys = children.map(|child| key(&self.nodes[child].bounds));
+                    let near = usize::from(keys[1] < keys[0]);
+                    waiting[count] = (children[1 - near] as u32, keys[1 - near]);
+                    count += 1;
+                    (index, least) = (children[near], keys[near]);
+                    continue;
+                }
+            }
+            if count == 0 {
+                return limit;
+            }
+            count -= 1;
+            (index, least) = (waiting[count].0 as usize, waiting[count].1);
+        }
+    }
+
+    /// Visits every pair of an item of this tree and one of `other` whose boxes are not further apart than `gap` in any coordinate, in no order.
+    pub fn pairs(&self, other: &Self, gap: f64, mut visit: impl FnMut(usize, usize)) {
+        if self.is_empty() || other.is_empty() {
+            return;
+        }
+        let mut waiting = vec![(0, 0)];
+        while let Some((i, j)) = waiting.pop() {
+            let (a, b) = (&self.nodes[i], &other.nodes[j]);
+            if !a.bounds.is_near(&b.bounds, gap) {
+                continue;
+            }
+            // The node with more items is opened.
+            if a.right != 0 && (b.right == 0 || a.last - a.first >= b.last - b.first) {
+                waiting.extend([(i + 1, j), (a.right as usize, j)]);
+            } else if b.right != 0 {
+                waiting.extend([(i, j + 1), (i, b.right as usize)]);
+            } else {
+                for (mine, bounds) in &self.items[a.first as usize..a.last as usize] {
+                    for (theirs, others) in &other.items[b.first as usize..b.last as usize] {
+                        if bounds.is_near(others, gap) {
+                            visit(*mine as usize, *theirs as usize);
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn boxes(count: usize) -> impl Strategy<Value = Vec<BoundingBox<2>>> {
+        let corner = prop::array::uniform2(-9.0..9.0_f64);
+        // Coordinates on a coarse grid now and then, so that centres coincide.
+        let grid = any::<bool>();
+        let one = (corner, prop::array::uniform2(0.0..3.0_f64), grid).prop_map(|(low, size, grid)| {
+            let low = if grid { low.map(f64::round) } else { low };
+            BoundingBox::new(low, [low[0] + size[0], low[1] + size[1]]).unwrap()
+        });
+        prop::collection::vec(one, 0..count)
+    }
+
+    fn sorted(mut list: Vec<usize>) -> Vec<usize> {
+        list.sort_unstable();
+        list
+    }
+
+    proptest! {
+        #[test]
+        fn queries_agree_with_looking_at_every_box(
+            boxes in boxes(60), point in prop::array::uniform2(-12.0..12.0_f64), direction in prop::array::uniform2(-1.0..1.0_f64),
+        ) {
+            let tree = BoundingTree::new(&boxes).unwrap();
+            let all = |keep: &dyn Fn(&BoundingBox<2>) -> bool| (0..boxes.len()).filter(|&i| keep(&boxes[i])).collect::<Vec<_>>();
+            let squared = tree.nearest(point, f64::INFINITY, |i, limit| boxes[i].distance_squared(&point).min(limit));
+            let slow = boxes.iter().map(|b| b.distance_squared(&point)).fold(f64::INFINITY, f64::min);
+            prop_assert_eq!(squared, slow, "nearest");
+            let hit = tree.along_ray(point, direction, f64::INFINITY, |i, limit| boxes[i].entry(&point, &direction).min(limit));
+            let slow = boxes.iter().map(|b| b.entry(&point, &direction)).fold(f64::INFINITY, f64::min);
+            prop_assert_eq!(hit, slow, "ray");
+            let mut found = Vec::new();
+            tree.containing(point, |i| found.push(i));
+            prop_assert_eq!(sorted(found), all(&|b| b.distance_squared(&point) == 0.0), "containing");
+            let window = BoundingBox::new(point, point.map(|x| x + 2.0)).unwrap();
+            let mut found = Vec::new();
+            tree.near(&window, 0.5, |i| found.push(i));
+            prop_assert_eq!(sorted(found), all(&|b| b.is_near(&window, 0.5)), "window");
+        }
+
+        #[test]
+        fn pairs_are_those_of_all_against_all(mine in boxes(40), theirs in boxes(40), gap in 0.0..1.0_f64) {
+            let trees = [&mine, &theirs].map(|boxes| BoundingTree::new(boxes).unwrap());
+            let mut found = Vec::new();
+            trees[0].pairs(&trees[1], gap, |i, j| found.push((i, j)));
+            found.sort_unstable();
+            let slow: Vec<_> = (0..mine.len())
+                .flat_map(|i| (0..theirs.len()).map(move |j| (i, j)))
+                .filter(|&(i, j)| mine[i].is_near(&theirs[j], gap))
+                .collect();
+            prop_assert_eq!(found, slow);
+        }
+    }
+
+    #[test]
+    fn depth_and_memory_stay_small_even_if_all_items_are_one() {
+        let point = BoundingBox::new([1.0, 2.0, 3.0], [1.0, 2.0, 3.0]).unwrap();
+        let tree = BoundingTree::new(&vec![point; 100_000]).unwrap();
+        assert!(tree.nodes.len() < 2 * 100_000 / (LEAF / 2), "{} nodes", tree.nodes.len());
+        let mut visited = 0;
+        tree.containing([1.0, 2.0, 3.0], |_| visited += 1);
+        assert_eq!((visited, tree.len()), (100_000, 100_000), "every item once");
+    }
+
+    #[test]
+    fn impossible_boxes_are_refused() {
+        assert_eq!(
+            BoundingBox::new([0.0, 1.0], [1.0, 0.0]).unwrap_err().name(),
+            "EmptyInterval",
+            "upside down"
+        );
+        assert_eq!(BoundingBox::new([f64::NAN], [1.0]).unwrap_err().name(), "NonFinite", "NaN");
+        assert_eq!(
+            BoundingBox::of_points([[0.0], [f64::INFINITY]]).unwrap_err().name(),
+            "NonFinite",
+            "infinity"
+        );
+        assert_eq!(BoundingBox::<2>::of_points([]).unwrap_err().name(), "Empty", "no points");
+        let empty = BoundingTree::<2>::new(&[]).unwrap();
+        assert_eq!(empty.nearest([0.0, f64::NAN], 7.0, |_, _| 0.0), 7.0, "nothing to visit");
+        assert!(empty.bounds().is_none() && empty.is_empty(), "an empty tree");
+    }
+}
