@@ -199,8 +199,26 @@ impl<const D: usize> Node<D> {
 
     /// The boxes and what they are of.
     fn children(&self) -> impl Iterator<Item = (BoundingBox<D>, Link)> + '_ {
-        let lanes = (0..WIDTH).take_while(|&lane| !matches!(self.links[lane], Link::Item(u32::MAX)));
-        lanes.map(|lane| (self.bounds(lane), self.links[lane]))
+        (0..self.count()).map(|lane| (self.bounds(lane), self.links[lane]))
+    }
+
+    /// Those boxes that are not further than `gap` from `other` in any coordinate.
+    fn near(&self, other: &BoundingBox<D>, gap: f64) -> impl Iterator<Item = (BoundingBox<D>, Link)> {
+        let mut is_near = [true; WIDTH];
+        for axis in 0..D {
+            let (low, high) = (other.low[axis] - gap, other.high[axis] + gap);
+            for (lane, near) in is_near.iter_mut().enumerate() {
+                *near &= self.low[axis][lane] <= high && self.high[axis][lane] >= low;
+            }
+        }
+        // Empty boxes are near nothing.
+        (0..WIDTH).filter(move |&lane| is_near[lane]).map(|lane| (self.bounds(lane), self.links[lane]))
+    }
+
+    /// The number of boxes.
+    fn count(&self) -> usize {
+        let is_free = |link: &Link| matches!(link, Link::Item(u32::MAX));
+        self.links.iter().position(is_free).unwrap_or(WIDTH)
     }
 
     /// A number for each box, infinite for lanes without one.
@@ -229,6 +247,11 @@ impl<const D: usize> Node<D> {
 /// The larger number, `b` if one is none; one instruction, unlike `f64::max`.
 fn larger(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
+}
+
+/// The smaller number, `b` if one is none.
+fn smaller(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
 }
 
 /// A tree over boxes, which are known by their index in the list it was built from.
@@ -356,6 +379,35 @@ impl<const D: usize> BoundingTree<D> {
         );
     }
 
+    /// Visits the items whose boxes have points within `gap` of the hyperplane `normal·x = offset`, where `normal` has length 1, in no order.
+    pub fn near_plane(&self, normal: [f64; D], offset: f64, gap: f64, mut visit: impl FnMut(usize)) {
+        let keys = |node: &Node<D>| {
+            let (mut low, mut high) = ([-offset; WIDTH], [-offset; WIDTH]);
+            for axis in 0..D {
+                let factor = normal[axis];
+                let (from, to) = (&node.low[axis], &node.high[axis]);
+                for lane in 0..WIDTH {
+                    let (a, b) = (factor * from[lane], factor * to[lane]);
+                    low[lane] += smaller(a, b);
+                    high[lane] += larger(a, b);
+                }
+            }
+            let mut keys = [1.0; WIDTH];
+            for (lane, key) in keys.iter_mut().enumerate() {
+                if low[lane] <= gap && high[lane] >= -gap {
+                    *key = 0.0;
+                }
+            }
+            // The empty boxes of lanes without an item reach everywhere.
+            keys.iter_mut().skip(node.count()).for_each(|key| *key = 1.0);
+            keys
+        };
+        self.walk(keys, 1.0, |item, limit| {
+            visit(item);
+            limit
+        });
+    }
+
     /// All items whose boxes have a key below the limit, which `visit` may lower.
     fn walk(
         &self,
@@ -400,19 +452,22 @@ impl<const D: usize> BoundingTree<D> {
     /// Visits every pair of an item of this tree and one of `other` whose boxes are not further apart than `gap` in any coordinate, in no order.
     pub fn pairs(&self, other: &Self, gap: f64, mut visit: impl FnMut(usize, usize)) {
         let (Some(mine), Some(theirs)) = (self.bounds, other.bounds) else { return };
-        let mut waiting = vec![((mine, Link::Node(0)), (theirs, Link::Node(0)))];
+        if !mine.is_near(&theirs, gap) {
+            return;
+        }
+        let mut waiting = Vec::with_capacity(2 * MAX_WAITING);
+        waiting.push(((mine, Link::Node(0)), (theirs, Link::Node(0))));
         while let Some((a, b)) = waiting.pop() {
-            if !a.0.is_near(&b.0, gap) {
-                continue;
-            }
             // The longer box is opened, if it can be.
             match (a.1, b.1) {
                 (Link::Item(a), Link::Item(b)) => visit(a as usize, b as usize),
                 (Link::Node(i), other) if matches!(other, Link::Item(_)) || a.0.size() >= b.0.size() => {
-                    waiting.extend(self.nodes[i as usize].children().map(|child| (child, b)));
+                    let near = self.nodes[i as usize].near(&b.0, gap);
+                    waiting.extend(near.map(|child| (child, b)));
                 }
                 (_, Link::Node(j)) => {
-                    waiting.extend(other.nodes[j as usize].children().map(|child| (a, child)));
+                    let near = other.nodes[j as usize].near(&a.0, gap);
+                    waiting.extend(near.map(|child| (a, child)));
                 }
                 (Link::Node(_), Link::Item(_)) => {}
             }
@@ -474,6 +529,15 @@ mod tests {
             let mut found = Vec::new();
             tree.containing(point, |i| found.push(i));
             prop_assert_eq!(sorted(found), all(&|b| b.distance_squared(&point) == 0.0), "containing");
+            let (normal, gap) = ([0.6, -0.8], 0.3);
+            let mut found = Vec::new();
+            tree.near_plane(normal, point[0], gap, |i| found.push(i));
+            let reach = |b: &BoundingBox<2>| {
+                let corners = [b.low(), b.high(), [b.low()[0], b.high()[1]], [b.high()[0], b.low()[1]]];
+                corners.map(|x| normal[0] * x[0] + normal[1] * x[1] - point[0])
+            };
+            let meets = |b: &BoundingBox<2>| reach(b).iter().any(|h| *h >= -gap) && reach(b).iter().any(|h| *h <= gap);
+            prop_assert_eq!(sorted(found), all(&meets), "plane");
             let window = BoundingBox::new(point, point.map(|x| x + 2.0)).unwrap();
             let mut found = Vec::new();
             tree.near(&window, 0.5, |i| found.push(i));

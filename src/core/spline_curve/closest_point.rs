@@ -11,23 +11,20 @@ use crate::core::bounding_tree::{BoundingBox, BoundingTree, BoundingTreeError};
 use crate::core::bspline::{MAX_DEGREE, SplineError};
 use crate::core::point::Point;
 use crate::core::rational_bezier::Projective;
-use crate::core::root_finding::{Zeros, bernstein_zeros};
+use crate::core::root_finding::{Zeros, bernstein_zeros, single_zero};
 use crate::core::spline_curve::Nurbs;
 use crate::core::spline_curve::chord::Chord;
 use crate::core::spline_curve::curve_intersection::check_tolerance;
 use crate::core::spline_curve::foot_polynomial::FootPolynomial;
 use crate::core::spline_curve::local_piece::{LocalPiece, dot};
 use crate::core::spline_curve::piecewise_sign::PieceSigns;
-use crate::core::triangular_scheme::{collapse, collapse_both};
+use crate::core::triangular_scheme::collapse_both;
 
 /// The coefficients of a foot polynomial: its degree is `3n − 2` at most.
 const MAX_COEFFICIENTS: usize = 3 * MAX_DEGREE - 1;
 
 /// How often a piece is halved to separate sign changes.
 const HALVINGS: usize = 4;
-/// Pieces up to this degree are evaluated on a small stack.
-const SMALL_DEGREE: usize = 3;
-
 /// The place of a curve that is closest to a given point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClosestPoint<P> {
@@ -299,7 +296,7 @@ fn minima(
         (0, false) => consider(low),
         (0, true) => consider(high),
         (1, false) => [low, high].into_iter().for_each(consider),
-        (1, true) => consider(low.mix(high, minimum(values, signs.last))),
+        (1, true) => consider(low.mix(high, single_zero(values, signs.last))),
         _ if halvings == 0 => {
             [low, high].into_iter().for_each(&mut *consider);
             if let Zeros::Isolated(zeros) = bernstein_zeros(values, noise) {
@@ -314,36 +311,6 @@ fn minima(
             minima(left, noise, [low, middle], halvings - 1, consider);
             minima(values, noise, [middle, high], halvings - 1, consider);
         }
-    }
-}
-
-impl<P: Point> LocalPiece<P> {
-    /// The point at `at` in `[0, 1]`, seen from the origin of the piece.
-    fn offset_at(&self, at: f64) -> P {
-        // The ends are asked for most often.
-        if at == 0.0 || at == 1.0 {
-            let end = if at == 0.0 { 0 } else { self.degree() };
-            return self.numerators[end] * self.weights.get(end).map_or(1.0, |w| w.recip());
-        }
-        if self.degree() <= SMALL_DEGREE {
-            self.offset_in::<{ SMALL_DEGREE + 1 }>(at)
-        } else {
-            self.offset_in::<{ MAX_DEGREE + 1 }>(at)
-        }
-    }
-
-    /// The same with place for `N` points.
-    fn offset_in<const N: usize>(&self, at: f64) -> P {
-        let n = self.degree();
-        let mut points = [P::ZERO; N];
-        points[..=n].copy_from_slice(&self.numerators);
-        let point = collapse(&mut points[..=n], at);
-        if self.weights.is_empty() {
-            return point;
-        }
-        let mut weights = [0.0; N];
-        weights[..=n].copy_from_slice(&self.weights);
-        point * collapse(&mut weights[..=n], at).recip()
     }
 }
 
@@ -370,52 +337,6 @@ impl<P: Projective> Nurbs<P> {
 /// The coordinates, with zeros up to the third.
 fn coordinates<P: Point>(point: P) -> [f64; 3] {
     [0, 1, 2].map(|i| if i < P::DIMENSION { point.coordinate(i) } else { 0.0 })
-}
-
-/// The zero of a polynomial whose coefficients, overwritten, are negative before index `k` and not from there on: Newton's method in a bracket, from where the control
-/// polygon is 0.
-///
-/// With `s = t/(1 − t)` the polynomial is `(1 − t)ᴺ Σ C(N,k) cₖ sᵏ`. Over the half of `[0, 1]` where the zero is, counted from the nearer end, `s` is at most 1, and the
-/// sum has no larger rounding errors than de Casteljau's algorithm.
-fn minimum(c: &mut [f64], k: usize) -> f64 {
-    let n = c.len() - 1;
-    let guess = ((k - 1) as f64 + c[k - 1] / (c[k - 1] - c[k])) / n as f64;
-    let mut binomial = 1.0;
-    for (j, c) in c.iter_mut().enumerate() {
-        *c *= binomial;
-        binomial *= (n - j) as f64 / (j + 1) as f64;
-    }
-    let is_right = c.iter().sum::<f64>() < 0.0;
-    if is_right {
-        c.reverse();
-    }
-    let start = if is_right { 1.0 - guess } else { guess };
-    let (mut low, mut high) = (0.0, 1.0);
-    let mut s = (start / (1.0 - start)).min(1.0);
-    // Halving alone takes 53 steps to the last digit.
-    for _ in 0..60 {
-        let (mut value, mut slope) = (0.0, 0.0);
-        for c in c.iter().rev() {
-            slope = slope * s + value;
-            value = value * s + c;
-        }
-        if value == 0.0 {
-            break;
-        }
-        if (value < 0.0) == is_right {
-            high = s;
-        } else {
-            low = s;
-        }
-        let newton = s - value / slope;
-        let next = if low < newton && newton < high { newton } else { 0.5 * (low + high) };
-        let step = (next - s).abs();
-        s = next;
-        if step <= 2.0 * f64::EPSILON || high - low <= f64::EPSILON {
-            break;
-        }
-    }
-    if is_right { 1.0 / (1.0 + s) } else { s / (1.0 + s) }
 }
 
 #[cfg(test)]

@@ -20,6 +20,7 @@
 //! | `knot_removal`, `removal_within` | the nearest curve with one knot less, and with as few knots as a tolerance allows |
 //! | `deviation`, `hausdorff` | certified distance at equal parameters, sampled distance of two point sets |
 //! | `line_intersection`, `curve_intersection`, `self_intersection` | B.6 where a curve meets a line, another curve, itself |
+//! | `intersection_tree`, `plane_piece` | B.6 curves prepared for intersections, and the one crossing of two pieces |
 //! | `arc_length` | B.4 arc length and its inverse |
 //! | `chord_polygon` | B.8 points whose polygon is within a tolerance |
 //! | `closest_point`, `foot_points` | B.5 the points of a curve closest to a given point, and all foot points |
@@ -53,6 +54,7 @@ mod hyperplane;
 mod hyperplane_intersection;
 mod inflections;
 mod insertion_scheme;
+mod intersection_tree;
 mod join;
 mod knot_insertion;
 mod knot_removal;
@@ -60,6 +62,7 @@ mod line_intersection;
 mod local_piece;
 mod nurbs;
 mod piecewise_sign;
+mod plane_piece;
 mod refinement_matrix;
 mod removal_within;
 #[cfg(test)]
@@ -90,6 +93,7 @@ pub use hyperplane::{Hyperplane, variation};
 pub use hyperplane_intersection::{HyperplaneIntersection, IntersectionKind};
 pub use inflections::CurveInflections;
 pub use insertion_scheme::InsertionScheme;
+pub use intersection_tree::IntersectionTree;
 pub use knot_removal::{KnotRemoval, NurbsKnotRemoval};
 pub use line_intersection::LineIntersection;
 pub use nurbs::Nurbs;
