@@ -7,7 +7,7 @@ use crate::app::command_state::key_text;
 use crate::app::lab::Lab;
 
 /// What the mouse and the arrow keys do.
-const HANDS: [(&str, &str); 14] = [
+const HANDS: [(&str, &str); 19] = [
     ("Click", "Select; with Shift add to the selection"),
     ("Drag a point or a knot", "Move it; Shift keeps to an axis, Ctrl snaps to the grid"),
     ("Drag on empty ground", "Select what is inside the frame"),
@@ -20,6 +20,14 @@ const HANDS: [(&str, &str); 14] = [
     ("Arrow keys", "Nudge the selected points"),
     ("Shift + arrow keys", "Nudge by ten steps"),
     ("Ctrl + arrow keys", "Nudge by a tenth of a step"),
+    ("Arrow keys, knot selected", "Left and right move one copy, up adds a copy, down removes one"),
+    ("Arrow keys, basis builder open", "Up and down change the degree, left and right the function"),
+    (
+        "Drag a knot on the line or dial",
+        "Move one copy, onto another it stacks; Shift moves the stack, Alt does not snap",
+    ),
+    ("Double click on the knot line", "Insert a knot there, shape kept"),
+    ("Escape while dragging", "Take the drag back"),
     ("Ctrl + Y", "Redo"),
     ("Drop a file on the window", "Open it"),
 ];

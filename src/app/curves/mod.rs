@@ -53,7 +53,7 @@ impl Workspace for Curves {
     }
 
     fn execute(&mut self, command: Command, lab: &mut Lab) -> bool {
-        self.canvas.execute(command, lab)
+        crate::app::knot_line::execute(command, lab) || self.canvas.execute(command, lab)
     }
 
     fn status(&self, lab: &Lab) -> String {
