@@ -186,6 +186,38 @@ fn a_closed_curve_is_kept_when_its_seam_moves() {
 }
 
 #[test]
+fn knots_stack_across_the_seam_of_a_closed_curve() {
+    for rational in [false, true] {
+        let space = SplineSpace::periodic(3, 7.0, vec![0.0, 1.0, 2.0, 3.0, 4.5, 5.0, 6.0]).unwrap();
+        let old = curve(space, rational);
+        for (knot, to, away, knots) in [
+            (6, 7.0, 2.5, [0.0, 0.0, 1.0, 2.0, 3.0, 4.5, 5.0]),
+            (0, -1.0, 3.7, [-1.0, -1.0, 1.0, 2.0, 3.0, 4.5, 5.0]),
+        ] {
+            let edit = Edit::MoveKnot { object: CURVE, knot, to };
+            let mut document = with(old.clone());
+            document.apply(&edit).unwrap();
+            let new = document.curve(CURVE).unwrap();
+            assert_eq!(new.space().knots(), knots, "knot {knot} onto {to}");
+            // Every control point keeps its weight and its neighbours.
+            let at = |curve: &Nurbs<DVec2>, k: usize| (curve.points()[k % 7], curve.weights()[k % 7]);
+            for k in 0..7 {
+                assert_eq!(at(new, k + 1), at(&old, k), "point {k} counts one more");
+            }
+            // Where the moved knot does not reach, the curve stays.
+            let far = old.evaluate(away).unwrap().distance(new.evaluate(away).unwrap());
+            assert!(far < 1e-12, "{far} at {away}");
+
+            let mut kept = with(old.clone());
+            kept.apply(&keep_curve(edit)).unwrap();
+            let kept = kept.curve(CURVE).unwrap();
+            assert_eq!(kept.space().knots(), knots, "with the curve kept");
+            assert!(distance(&old, kept) < distance(&old, new), "nearer");
+        }
+    }
+}
+
+#[test]
 fn knots_go_within_the_tolerance_and_not_beyond() {
     for old in all().into_iter().filter(|curve| curve.degree() <= 5) {
         let mut left = old.points().len();

@@ -408,6 +408,22 @@ fn the_dial_has_the_same_hands_as_the_line() {
 }
 
 #[test]
+fn a_knot_stacks_on_the_seam_from_both_sides() {
+    let mut window = window(closed_curve());
+    let (six, seam) = (place(&window, "Knot 6 on the dial"), place(&window, "Knot 0 on the dial"));
+    drag(&mut window, six, seam - six);
+    assert_eq!(knots(&window)[..2], [0.0, 0.0], "the last knot onto the first: {:?}", knots(&window));
+    assert_eq!(lab(&window).selection.knot, Some(0.0), "it is selected there");
+    undo(&mut window);
+    let (six, seam) = (place(&window, "Knot 6"), place(&window, "Knot 0"));
+    let unit = six.x - place(&window, "Knot 5").x;
+    drag(&mut window, seam, vec2(3.0 - unit, 0.0));
+    assert_eq!(knots(&window)[..2], [-1.0, -1.0], "the first onto the last: {:?}", knots(&window));
+    undo(&mut window);
+    assert_eq!(curve(&window), closed_curve(), "undone exactly");
+}
+
+#[test]
 fn a_hovered_knot_lights_up_on_line_and_dial() {
     let mut window = window(closed_curve());
     let object = lab(&window).selection.object.unwrap();
@@ -417,6 +433,18 @@ fn a_hovered_knot_lights_up_on_line_and_dial() {
         window.run_steps(2);
         assert_eq!(lab(&window).hovered, Hovered::Knot(object, 3.0), "{label}");
     }
+    // The function of point 1 has its top at 3, where the circle is nearest to the middle.
+    let center = place(&window, "Dial of knots");
+    let top = curve(&window)
+        .space()
+        .span(3.0)
+        .map(|span| curve(&window).space().coefficient_index(span - 2))
+        .unwrap();
+    let inwards = place(&window, "Knot 3 on the dial") - center;
+    let value = 0.66;
+    window.hover_at(center + inwards * (1.0 - 0.42 * value));
+    window.run_steps(2);
+    assert_eq!(lab(&window).hovered, Hovered::Point(object, top), "its function on the dial");
 }
 
 #[test]

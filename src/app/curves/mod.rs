@@ -38,7 +38,7 @@ impl Workspace for Curves {
         if open(crate::app::KNOT_LINE) {
             egui::Panel::bottom("knot line")
                 .resizable(true)
-                .default_size(170.0)
+                .default_size(190.0)
                 .size_range(110.0..=420.0)
                 .show(ui, |ui| crate::app::knot_line::show(lab, ui));
         }

@@ -35,6 +35,11 @@ impl Pyramid {
         Self { degree, knots }
     }
 
+    /// The middle of its support.
+    fn middle(&self) -> f64 {
+        0.5 * self.knots[0] + 0.5 * self.knots[self.knots.len() - 1]
+    }
+
     /// `bᵈₖ₊ᵢ(x)`.
     fn value(&self, degree: usize, i: usize, x: f64) -> f64 {
         let knots = self.knots.get(i..=i + degree + 1);
@@ -181,7 +186,7 @@ pub(super) fn show(lab: &mut Lab, ui: &Ui, scene: &Scene, response: &Response) {
         let text =
             format!("{} = 1 on its knot interval, 0 elsewhere", name(0, builder.spline + builder.part));
         curve(ui, scene, &pyramid, (0, builder.part), Stroke::new(colors.width * 2.2, colors.sum));
-        line_of_text(ui, scene, 0, &[(text, muted)]);
+        line_of_text(ui, scene, pyramid.middle(), 0, &[(text, muted)]);
     } else {
         decomposition(lab, ui, scene, &pyramid, &builder, &colors);
     }
@@ -308,7 +313,7 @@ fn words(lab: &Lab, ui: &Ui, scene: &Scene, pyramid: &Pyramid, builder: &BasisBu
             colors.parts[1],
         ),
     ];
-    line_of_text(ui, scene, 0, &formula);
+    line_of_text(ui, scene, pyramid.middle(), 0, &formula);
     let t = scene.t;
     if t < pyramid.knots[i] || t > pyramid.knots[i + d + 1] {
         return;
@@ -324,7 +329,7 @@ fn words(lab: &Lab, ui: &Ui, scene: &Scene, pyramid: &Pyramid, builder: &BasisBu
         (product(1), colors.parts[1]),
         ("   at t".to_owned(), color32(lab.theme.muted_text)),
     ];
-    line_of_text(ui, scene, 1, &numbers);
+    line_of_text(ui, scene, pyramid.middle(), 1, &numbers);
     let painter = painter(ui, scene);
     let parts = pyramid.parts(d, i, t);
     let rim = Stroke::new(1.2, color32(lab.theme.background));
@@ -333,8 +338,8 @@ fn words(lab: &Lab, ui: &Ui, scene: &Scene, pyramid: &Pyramid, builder: &BasisBu
     painter.circle(at(scene, t, parts[0] + parts[1]), 4.5, colors.sum, rim);
 }
 
-/// Coloured words in a row, at the upper corner of the plot away from the B-spline.
-fn line_of_text(ui: &Ui, scene: &Scene, row: usize, words: &[(String, Color32)]) {
+/// Coloured words in a row, at the upper corner of the plot away from `middle`, the middle of the B-spline.
+fn line_of_text(ui: &Ui, scene: &Scene, middle: f64, row: usize, words: &[(String, Color32)]) {
     let painter = painter(ui, scene);
     let mut job = eframe::egui::text::LayoutJob::default();
     for (word, color) in words {
@@ -346,8 +351,12 @@ fn line_of_text(ui: &Ui, scene: &Scene, row: usize, words: &[(String, Color32)])
         job.append(word, 0.0, format);
     }
     let galley = painter.layout_job(job);
-    let corner = scene.plot.left_top() + vec2(10.0, 4.0 + 19.0 * row as f32);
-    let place = Align2::LEFT_TOP.anchor_size(corner, galley.size());
+    let down = 4.0 + 19.0 * row as f32;
+    let place = if scene.axis.x(middle) > scene.plot.center().x {
+        Align2::LEFT_TOP.anchor_size(scene.plot.left_top() + vec2(10.0, down), galley.size())
+    } else {
+        Align2::RIGHT_TOP.anchor_size(scene.plot.right_top() + vec2(-10.0, down), galley.size())
+    };
     painter.rect_filled(place.expand2(vec2(4.0, 1.0)), 3.0, ui.visuals().panel_fill.gamma_multiply(0.85));
     painter.galley(place.min, galley, ui.visuals().text_color());
 }

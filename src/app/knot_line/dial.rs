@@ -16,11 +16,18 @@ use crate::app::lab::{Hovered, Lab};
 use crate::app::number_text::{compact, round_to_step, short};
 use crate::app::painter::color32;
 
-/// Width around the circle for stacks and labels, in points.
-const MARGIN: f32 = 34.0;
+/// Room above and below the circle for stacks and labels, in points; beside it labels need more.
+const MARGIN: f32 = 22.0;
+const MARGIN_BESIDE: f32 = 40.0;
 
 /// Height of a function of value 1 as a share of the radius.
 const HEIGHT: f32 = 0.42;
+
+/// Where the hand of t is held, as a share of the radius.
+const KNOB: f32 = 0.56;
+
+/// A function is under the pointer within this distance in points.
+const REACH: f32 = 5.0;
 
 /// Knots closer than this, in points, are ticks without a handle.
 const CLOSEST_HANDLES: f32 = 7.0;
@@ -65,18 +72,18 @@ impl Ring {
 
 /// Width of the dial in a knot line of `size`; 0 where there is no room or the curve is open.
 pub(super) fn width(size: Vec2, periodic: bool) -> f32 {
-    let side = size.y.min(0.36 * size.x);
-    if periodic && side >= 104.0 && size.x >= 480.0 { side } else { 0.0 }
+    let side = (size.y + 2.0 * (MARGIN_BESIDE - MARGIN)).min(0.4 * size.x);
+    if periodic && size.y >= 90.0 && size.x >= 460.0 { side } else { 0.0 }
 }
 
 /// Shows the dial in `rect`.
 pub(super) fn show(lab: &mut Lab, ui: &mut Ui, id: Id, scene: &Scene, rect: Rect) {
     let Some(period) = scene.curve.space().period() else { return };
     let id = id.with("dial");
-    let ring = Ring { center: rect.center(), radius: 0.5 * rect.width().min(rect.height()) - MARGIN, period };
+    let radius = (0.5 * rect.height() - MARGIN).min(0.5 * rect.width() - MARGIN_BESIDE);
+    let ring = Ring { center: rect.center(), radius, period };
     let response = ui.interact(rect, id, Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, "Dial of knots"));
-    // The dial of a short panel has no room for functions inside.
     functions(lab, ui, scene, &ring);
     ground(lab, ui, scene, &ring);
     hand_of_t(lab, ui, id, scene, &ring);
@@ -154,7 +161,7 @@ fn ground(lab: &Lab, ui: &Ui, scene: &Scene, ring: &Ring) {
     let font = FontId::proportional(10.0 * theme.text_scale as f32);
     let text = format!("T = {}\nseam {}", compact(ring.period), compact(left));
     let galley = painter.layout(text, font, color32(theme.muted_text), 2.0 * ring.radius);
-    if galley.size().x < 1.1 * ring.radius {
+    if galley.size().x < KNOB * 2.0 * ring.radius {
         let place = Align2::CENTER_CENTER.anchor_size(ring.center, galley.size());
         painter.galley(place.min, galley, color32(theme.muted_text));
     }
@@ -205,7 +212,7 @@ fn functions(lab: &Lab, ui: &Ui, scene: &Scene, ring: &Ring) {
 /// The hand that shows t, with its handle.
 fn hand_of_t(lab: &mut Lab, ui: &Ui, id: Id, scene: &Scene, ring: &Ring) {
     let accent = color32(lab.theme.accent);
-    let knob = ring.place(scene.t, 0.5 * ring.radius);
+    let knob = ring.place(scene.t, KNOB * ring.radius);
     let response = ui.interact(
         Rect::from_center_size(knob, vec2(14.0, 14.0)),
         id.with("cursor of t"),
@@ -230,17 +237,35 @@ fn hand_of_t(lab: &mut Lab, ui: &Ui, id: Id, scene: &Scene, ring: &Ring) {
     }
 }
 
-/// What can be done with the mouse beside the knots: t, a new knot, the menu.
+/// The control point whose function runs through `at`.
+fn function_at(scene: &Scene, ring: &Ring, at: Pos2) -> Option<usize> {
+    let active = basis::active(&scene.curve, inside(scene, ring.parameter(at)));
+    let from_center = at.distance(ring.center);
+    let distance = |value: f64| (ring.radius * (1.0 - HEIGHT * value as f32) - from_center).abs();
+    let values = active.coefficients.iter().zip(&active.values);
+    values
+        .filter(|&(_, &value)| value > 0.05 && distance(value) <= REACH)
+        .min_by(|a, b| distance(*a.1).total_cmp(&distance(*b.1)))
+        .map(|(&k, _)| k)
+}
+
+/// What can be done with the mouse beside the knots: a function, t, a new knot, the menu.
 fn ground_hands(lab: &mut Lab, ui: &Ui, scene: &Scene, ring: &Ring, response: &eframe::egui::Response) {
     let reaches = |at: &Pos2| at.distance(ring.center) > 0.2 * ring.radius;
-    if let Some(pointer) = response.hover_pos().filter(|_| response.hovered()).filter(reaches) {
-        let at = inside(scene, ring.parameter(pointer));
-        lab.hovering = Hovered::Curve(scene.object, at);
+    let over = response.hover_pos().filter(|_| response.hovered()).filter(reaches);
+    let near = over.and_then(|pointer| function_at(scene, ring, pointer));
+    if let Some(pointer) = over {
+        lab.hovering = near
+            .map_or(Hovered::Curve(scene.object, inside(scene, ring.parameter(pointer))), |k| {
+                Hovered::Point(scene.object, k)
+            });
     }
     if let Some(pointer) = response.interact_pointer_pos().filter(reaches) {
         let parameter = inside(scene, ring.parameter(pointer));
         if response.double_clicked() {
             plot::insert(lab, scene, round_to_step(parameter, ring.per_pixel()));
+        } else if let Some(k) = near.filter(|_| response.clicked()) {
+            plot::choose(lab, ui, k);
         } else if response.clicked() || response.dragged_by(PointerButton::Primary) {
             set_parameter(lab, scene, parameter);
         }

@@ -4,8 +4,8 @@
 //! unless Alt is held. Escape during a drag takes it back. A move that cannot be is pushed back, with its reason at the pointer.
 
 use eframe::egui::{
-    Area, Color32, Frame, Id, Key, Order, PointerButton, Popup, PopupCloseBehavior, Pos2, Rect, Response,
-    RichText, Sense, Ui, vec2,
+    Area, Color32, Frame, Id, Key, LayerId, Order, PointerButton, Popup, PopupCloseBehavior, Pos2, Rect,
+    Response, RichText, Sense, Shape, Stroke, Ui, vec2,
 };
 
 use crate::app::knot_line::axis::Axis;
@@ -156,7 +156,9 @@ pub(super) fn frozen(ui: &Ui, id: Id) -> Option<Track> {
 pub(super) struct Hand {
     id: Id,
     drag: Option<KnotDrag>,
-    /// Whether the handle that is held has been shown.
+    /// The widget that was held when the frame began, even if the drag ends in this frame.
+    held: Option<Id>,
+    /// Whether it has been shown.
     shown: bool,
 }
 
@@ -168,7 +170,7 @@ impl Hand {
             lab.commit();
             drag = None;
         }
-        Self { id, drag, shown: false }
+        Self { id, held: drag.as_ref().map(|drag| drag.handle), drag, shown: false }
     }
 
     /// Whether the knot that is dragged now stands in `stack` and has no handle yet.
@@ -179,8 +181,7 @@ impl Hand {
     /// The widget of `stack`: the pointer keeps the one that it holds, wherever that knot goes.
     pub(super) fn handle_id(&mut self, stack: &Stack) -> Id {
         let own = self.id.with(("knot", stack.first));
-        let held = self.drag.as_ref().map(|drag| drag.handle);
-        match held {
+        match self.held {
             Some(handle) if self.holds(stack) => {
                 self.shown = true;
                 handle
@@ -269,8 +270,13 @@ impl Hand {
                 Ok(outcome) => {
                     lab.shape_note = outcome.shape.sentence();
                     drag.effect = effect(&outcome.shape, lab.knots.keep_curve);
-                    drag.now = to;
-                    lab.selection.knot = Some(to);
+                    // A knot that went onto the seam from the left stands at the start of the period.
+                    let space = lab.history.document().curve(drag.object).map(|curve| curve.space());
+                    drag.now = space.filter(|space| !space.knots().contains(&to)).map_or(to, |space| {
+                        let (left, _) = space.parameter_interval();
+                        space.reduce(to).map_or(to, |at| if space.knots().contains(&at) { at } else { left })
+                    });
+                    lab.selection.knot = Some(drag.now);
                 }
                 // It stays at the last place where it could be.
                 Err(error) => drag.refusal = Some(reason(&error)),
@@ -293,6 +299,9 @@ impl Hand {
             self.follow(lab, ui, &response);
         }
         if let Some(drag) = &self.drag {
+            if drag.refusal.is_some() {
+                leash(lab, ui, place(drag.now));
+            }
             note(lab, ui, drag);
         }
         ui.data_mut(|data| match self.drag {
@@ -302,6 +311,15 @@ impl Hand {
             None => data.remove::<KnotDrag>(drag_id(self.id)),
         });
     }
+}
+
+/// From the knot that does not follow to the pointer.
+fn leash(lab: &Lab, ui: &Ui, knot: Pos2) {
+    let Some(pointer) = ui.input(|input| input.pointer.latest_pos()) else { return };
+    let pen = Stroke::new(1.4 * lab.theme.stroke_scale as f32, color32(lab.theme.error));
+    let painter = ui.ctx().layer_painter(LayerId::new(Order::Foreground, Id::unique("leash of a knot")));
+    painter.extend(Shape::dashed_line(&[knot, pointer], pen, 4.0, 3.0));
+    painter.circle_stroke(pointer, 4.0, pen);
 }
 
 fn hint(scene: &Scene, stack: &Stack) -> String {

@@ -24,12 +24,15 @@ pub(super) fn show(
     ui.horizontal(|ui| {
         parameter(lab, ui, object, curve, t);
         ui.separator();
-        what_stays(lab, ui);
-        // A click on the field of the tolerance must not close the menu.
-        let stays = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
-        let (button, _) = MenuButton::new("Edit knots").config(stays).ui(ui, |ui| knots_menu(lab, ui));
-        button.on_hover_text("Rules for all knots, and removal");
         let on = lab.knots.builder.is_some();
+        // The builder's row needs the room.
+        if !on {
+            what_stays(lab, ui);
+            // A click on the field of the tolerance must not close the menu.
+            let stays = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+            let (button, _) = MenuButton::new("Edit knots").config(stays).ui(ui, |ui| knots_menu(lab, ui));
+            button.on_hover_text("Rules for all knots, and removal");
+        }
         let toggle = ui
             .selectable_label(on, "Builder")
             .on_hover_text("One B-spline as two of lower degree times linear factors (section 4.1)");

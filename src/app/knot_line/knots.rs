@@ -42,10 +42,8 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, id: Id, scene: &Scene) {
             hand.touch(lab, ui, scene, stack, &response, Track::Line(scene.axis));
         }
     }
-    let strip = scene.strip;
-    hand.put_down(lab, ui, |value| {
-        pos2(scene.axis.x(value).clamp(strip.left(), strip.right()), strip.center().y)
-    });
+    let (strip, row) = (scene.strip, scene.plot.bottom() + 5.0);
+    hand.put_down(lab, ui, |value| pos2(scene.axis.x(value).clamp(strip.left(), strip.right()), row));
 }
 
 /// Whether the stack belongs to a neighbouring period.
@@ -129,12 +127,11 @@ fn paint(
     let inside = is_inside(space, stack.value);
     let font = FontId::proportional(10.0 * theme.text_scale as f32);
     let roomy = response.is_some_and(Response::hovered) || x - *label_end > 34.0;
+    if stack.multiplicity > 1 && roomy && !ghost {
+        text = format!("{text} ({}\u{d7})", stack.multiplicity);
+    }
     if inside && !ghost && roomy {
-        let times =
-            if stack.multiplicity > 1 { format!("{}\u{d7} ", stack.multiplicity) } else { String::new() };
-        text = format!("{times}{text} \u{b7} {}", continuity(space.degree(), stack.multiplicity));
-    } else if stack.multiplicity > 1 && roomy && !ghost {
-        text = format!("{}\u{d7} {text}", stack.multiplicity);
+        text = format!("{text} \u{b7} {}", continuity(space.degree(), stack.multiplicity));
     }
     let muted = if marked { ink } else { color32(theme.muted_text) };
     let galley = painter.layout_no_wrap(text, font, if ghost { muted.gamma_multiply(0.5) } else { muted });

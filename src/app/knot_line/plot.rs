@@ -225,16 +225,21 @@ fn interact(lab: &mut Lab, ui: &Ui, scene: &Scene, response: &Response, near: Op
         };
     }
     if let Some(k) = near.filter(|_| response.clicked()) {
-        if !ui.input(|input| input.modifiers.shift) {
-            lab.selection.points.clear();
-        }
-        lab.selection.points.insert(k);
-        lab.selection.knot = None;
+        choose(lab, ui, k);
     } else {
         set_t(lab, scene, response);
     }
     note_place(ui, scene, response);
     menu(lab, scene, response);
+}
+
+/// Selects control point `k` by its function; with Shift it is added.
+pub(super) fn choose(lab: &mut Lab, ui: &Ui, k: usize) {
+    if !ui.input(|input| input.modifiers.shift) {
+        lab.selection.points.clear();
+    }
+    lab.selection.points.insert(k);
+    lab.selection.knot = None;
 }
 
 /// A click or a drag on empty ground sets t, a double click inserts a knot.

@@ -59,10 +59,12 @@ pub(super) fn keeping_points(
     object: ObjectId,
     edit: &Edit,
 ) -> Result<Outcome, EditError> {
-    document.change_curve(object, |curve| {
+    document.change_curve(object, |old| {
+        let turned = turned_for(old, edit)?;
+        let (curve, edit) = turned.as_ref().map_or((old, edit), |(curve, edit)| (curve, edit));
         let space = changed_space(curve, object, edit)?;
         let new = Nurbs::new(space, curve.points().to_vec(), curve.weights().to_vec())?;
-        let shape = changed(curve, &new);
+        let shape = changed(old, &new);
         Ok((new, shape))
     })
 }
@@ -76,7 +78,9 @@ pub(super) fn keeping_curve(document: &mut Document, edit: &Edit) -> Result<Outc
     else {
         return Err(EditError::NoKnotEdit { name: edit.name() });
     };
-    document.change_curve(object, |curve| {
+    document.change_curve(object, |old| {
+        let turned = turned_for(old, edit)?;
+        let (curve, edit) = turned.as_ref().map_or((old, edit), |(curve, edit)| (curve, edit));
         let space = changed_space(curve, object, edit)?;
         if space == *curve.space() {
             return Ok((curve.clone(), ShapeChange::None));
@@ -90,9 +94,33 @@ pub(super) fn keeping_curve(document: &mut Document, edit: &Edit) -> Result<Outc
             }
         }
         let new = curve.nearest_in(&space)?;
-        let shape = changed(curve, &new);
+        let shape = changed(old, &new);
         Ok((new, shape))
     })
+}
+
+/// A knot at the seam of a closed curve that moves onto its neighbour on the other side: the period first starts with the knots before
+/// the seam, so that both knots stand in one period. Control points and weights keep their knots, not their indices.
+fn turned_for(curve: &Nurbs<DVec2>, edit: &Edit) -> Result<Option<(Nurbs<DVec2>, Edit)>, EditError> {
+    let (Edit::MoveKnot { object, knot, to }, space) = (edit, curve.space()) else { return Ok(None) };
+    let (Some(period), count) = (space.period(), space.dimension()) else { return Ok(None) };
+    let (start, last) = (space.knots()[0], space.knots()[count - 1]);
+    let copies = space.multiplicity(last);
+    let leftwards = *knot == 0 && *to <= last - period;
+    let rightwards = *knot + 1 == count && *to >= start + period;
+    if copies >= count || !(leftwards || rightwards) {
+        return Ok(None);
+    }
+    let first = -(copies as isize);
+    let (turned, _) = curve.without_weights().with_start(first)?.into_parts();
+    let index = |k: usize| (k + count - copies) % count;
+    let points = (0..count).map(|k| curve.points()[index(k)]).collect();
+    let weights = (0..count).map(|k| curve.weights()[index(k)]).collect();
+    let (knot, to) = if leftwards { (copies, *to) } else { (copies - 1, *to - period) };
+    // Rounding of the period must not keep equal knots apart.
+    let target = turned.knots()[if leftwards { knot - 1 } else { knot + 1 }];
+    let to = if (to - target).abs() <= 1e-12 * period { target } else { to };
+    Ok(Some((Nurbs::new(turned, points, weights)?, Edit::MoveKnot { object: *object, knot, to })))
 }
 
 /// The space that the curve has after `edit`, one that changes knots and nothing else.
