@@ -199,14 +199,27 @@ fn keys_choose_move_stack_and_remove_a_knot() {
     assert_eq!(knots(&window)[5], 2.01, "a hundredth");
     key(&mut window, Modifiers::SHIFT, Key::ArrowRight);
     assert_eq!(knots(&window)[5], 2.1, "ten steps, on the grid of ten");
+    let moved = curve(&window);
     key(&mut window, Modifiers::NONE, Key::ArrowUp);
     assert_eq!(knots(&window)[5..7], [2.1, 2.1], "a copy more");
-    assert!(distance(&curve(&window), &curve(&window)) < 1e-12, "the shape is kept");
+    assert!(distance(&moved, &curve(&window)) < 1e-12, "the shape is kept");
+    key(&mut window, Modifiers::NONE, Key::ArrowLeft);
+    assert_eq!(knots(&window)[5..7], [2.09, 2.1], "pulled apart");
+    key(&mut window, Modifiers::SHIFT, Key::ArrowRight);
+    assert_eq!(knots(&window)[5..7], [2.1, 2.1], "stacked: it does not pass");
+    key(&mut window, Modifiers::NONE, Key::ArrowUp);
+    key(&mut window, Modifiers::NONE, Key::ArrowUp);
+    assert_eq!(curve(&window).space().multiplicity(2.1), 3, "no more than the degree");
+    let said = lab(&window).shape_note.clone().unwrap_or_default();
+    assert_eq!(said, "2.1 is full: with 4 copies a curve of degree 3 would fall apart", "the reason");
     key(&mut window, Modifiers::NONE, Key::Delete);
-    assert_eq!(curve(&window).space().multiplicity(2.1), 1, "Delete removes a copy");
+    assert_eq!(curve(&window).space().multiplicity(2.1), 2, "Delete removes a copy");
+    lab_mut(&mut window).selection.knot = Some(2.1);
+    key(&mut window, Modifiers::NONE, Key::ArrowDown);
+    assert_eq!(curve(&window).space().multiplicity(2.1), 1, "and so does the arrow down");
     key(&mut window, Modifiers::NONE, Key::Comma);
     assert_eq!(lab(&window).selection.knot, Some(1.0), "the one before");
-    for _ in 0..4 {
+    while lab(&window).history.steps().0 > 0 {
         undo(&mut window);
     }
     assert_eq!(curve(&window), open_curve(), "undone exactly");

@@ -109,7 +109,11 @@ pub(super) fn arrows(lab: &mut Lab, ui: &Ui) {
                 lab.selection.knot = Some(to);
                 lab.tidy_selection();
             }
-            Err(error) => lab.problem(reason(&error)),
+            Err(error) => {
+                let reason = reason(&error);
+                lab.shape_note = Some(reason.clone());
+                lab.problem(reason);
+            }
         }
     }
 }

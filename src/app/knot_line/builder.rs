@@ -35,9 +35,9 @@ impl Pyramid {
         Self { degree, knots }
     }
 
-    /// The middle of its support.
-    fn middle(&self) -> f64 {
-        0.5 * self.knots[0] + 0.5 * self.knots[self.knots.len() - 1]
+    /// Its support.
+    fn support(&self) -> [f64; 2] {
+        [self.knots[0], self.knots[self.knots.len() - 1]]
     }
 
     /// `bᵈₖ₊ᵢ(x)`.
@@ -141,8 +141,8 @@ pub(super) fn controls(lab: &mut Lab, ui: &mut Ui, count: usize, degree: usize) 
     }
     ui.spacing_mut().item_spacing.x = 8.0;
     if builder.degree > 0 {
-        ui.label("slide together");
-        ui.spacing_mut().slider_width = 80.0;
+        ui.label("slide");
+        ui.spacing_mut().slider_width = 70.0;
         let slider = Slider::new(&mut builder.slide, 0.0..=1.0).show_value(false);
         ui.add(slider)
             .accessible_name("Slide together")
@@ -186,7 +186,7 @@ pub(super) fn show(lab: &mut Lab, ui: &Ui, scene: &Scene, response: &Response) {
         let text =
             format!("{} = 1 on its knot interval, 0 elsewhere", name(0, builder.spline + builder.part));
         curve(ui, scene, &pyramid, (0, builder.part), Stroke::new(colors.width * 2.2, colors.sum));
-        line_of_text(ui, scene, pyramid.middle(), 0, &[(text, muted)]);
+        line_of_text(lab, ui, scene, pyramid.support(), 0, &[(text, muted)]);
     } else {
         decomposition(lab, ui, scene, &pyramid, &builder, &colors);
     }
@@ -313,7 +313,7 @@ fn words(lab: &Lab, ui: &Ui, scene: &Scene, pyramid: &Pyramid, builder: &BasisBu
             colors.parts[1],
         ),
     ];
-    line_of_text(ui, scene, pyramid.middle(), 0, &formula);
+    line_of_text(lab, ui, scene, pyramid.support(), 0, &formula);
     let t = scene.t;
     if t < pyramid.knots[i] || t > pyramid.knots[i + d + 1] {
         return;
@@ -329,7 +329,7 @@ fn words(lab: &Lab, ui: &Ui, scene: &Scene, pyramid: &Pyramid, builder: &BasisBu
         (product(1), colors.parts[1]),
         ("   at t".to_owned(), color32(lab.theme.muted_text)),
     ];
-    line_of_text(ui, scene, pyramid.middle(), 1, &numbers);
+    line_of_text(lab, ui, scene, pyramid.support(), 1, &numbers);
     let painter = painter(ui, scene);
     let parts = pyramid.parts(d, i, t);
     let rim = Stroke::new(1.2, color32(lab.theme.background));
@@ -338,21 +338,31 @@ fn words(lab: &Lab, ui: &Ui, scene: &Scene, pyramid: &Pyramid, builder: &BasisBu
     painter.circle(at(scene, t, parts[0] + parts[1]), 4.5, colors.sum, rim);
 }
 
-/// Coloured words in a row, at the upper corner of the plot away from `middle`, the middle of the B-spline.
-fn line_of_text(ui: &Ui, scene: &Scene, middle: f64, row: usize, words: &[(String, Color32)]) {
+/// Coloured words in a row, at the upper corner of the plot that the B-spline leaves more room.
+fn line_of_text(
+    lab: &Lab,
+    ui: &Ui,
+    scene: &Scene,
+    support: [f64; 2],
+    row: usize,
+    words: &[(String, Color32)],
+) {
     let painter = painter(ui, scene);
+    let scale = lab.theme.text_scale as f32;
     let mut job = eframe::egui::text::LayoutJob::default();
     for (word, color) in words {
         let format = eframe::egui::TextFormat {
-            font_id: FontId::proportional(13.0),
+            font_id: FontId::proportional(13.0 * scale),
             color: *color,
             ..Default::default()
         };
         job.append(word, 0.0, format);
     }
     let galley = painter.layout_job(job);
-    let down = 4.0 + 19.0 * row as f32;
-    let place = if scene.axis.x(middle) > scene.plot.center().x {
+    let down = 4.0 + 19.0 * scale * row as f32;
+    let [before, after] =
+        [scene.axis.x(support[0]) - scene.plot.left(), scene.plot.right() - scene.axis.x(support[1])];
+    let place = if before > after {
         Align2::LEFT_TOP.anchor_size(scene.plot.left_top() + vec2(10.0, down), galley.size())
     } else {
         Align2::RIGHT_TOP.anchor_size(scene.plot.right_top() + vec2(-10.0, down), galley.size())
@@ -376,7 +386,7 @@ fn choose(lab: &mut Lab, scene: &Scene, pyramid: &Pyramid, builder: &BasisBuilde
     }
     match near {
         Some(part) if response.clicked() => {
-            lab.knots.builder = Some(BasisBuilder { part, ..builder.clone() })
+            lab.knots.builder = Some(BasisBuilder { part, ..builder.clone() });
         }
         _ => plot::set_t(lab, scene, response),
     }

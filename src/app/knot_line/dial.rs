@@ -18,10 +18,13 @@ use crate::app::painter::color32;
 
 /// Room above and below the circle for stacks and labels, in points; beside it labels need more.
 const MARGIN: f32 = 22.0;
-const MARGIN_BESIDE: f32 = 40.0;
+const MARGIN_BESIDE: f32 = 46.0;
 
 /// Height of a function of value 1 as a share of the radius.
 const HEIGHT: f32 = 0.42;
+
+/// From this radius on every knot tells how smooth the curve is there.
+const ROOMY: f32 = 70.0;
 
 /// Where the hand of t is held, as a share of the radius.
 const KNOB: f32 = 0.56;
@@ -297,7 +300,7 @@ fn paint(lab: &Lab, ui: &Ui, scene: &Scene, stack: &Stack, ring: &Ring, labelled
         return;
     }
     let mut text = short(stack.value);
-    if stack.multiplicity > 1 || marked {
+    if stack.multiplicity > 1 || marked || ring.radius > ROOMY {
         text = format!("{text} \u{b7} {}", continuity(scene.curve.degree(), stack.multiplicity));
     }
     let font = FontId::proportional(9.5 * theme.text_scale as f32);

@@ -351,11 +351,11 @@ fn note(lab: &Lab, ui: &Ui, drag: &KnotDrag) {
         (drag.effect.clone().unwrap_or_default(), color32(lab.theme.muted_text)),
         (drag.refusal.clone().unwrap_or_default(), color32(lab.theme.error)),
     ];
-    beside_pointer(ui, pointer, &lines);
+    beside_pointer(ui, pointer, &lines, 12.0 * lab.theme.text_scale as f32);
 }
 
 /// A small note above and right of the pointer; nothing can be clicked on it.
-fn beside_pointer(ui: &Ui, pointer: Pos2, lines: &[(String, Color32)]) {
+fn beside_pointer(ui: &Ui, pointer: Pos2, lines: &[(String, Color32)], size: f32) {
     Area::new(Id::unique("note on a knot"))
         .order(Order::Tooltip)
         .interactable(false)
@@ -366,7 +366,7 @@ fn beside_pointer(ui: &Ui, pointer: Pos2, lines: &[(String, Color32)]) {
             Frame::popup(ui.style()).show(ui, |ui| {
                 ui.spacing_mut().item_spacing.y = 2.0;
                 for (text, color) in lines.iter().filter(|(text, _)| !text.is_empty()) {
-                    let text = RichText::new(text).color(*color).size(12.0);
+                    let text = RichText::new(text).color(*color).size(size);
                     ui.add(eframe::egui::Label::new(text).extend());
                 }
             });

@@ -93,10 +93,11 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
     // What the row above has just done counts.
     let Some(curve) = lab.curve().cloned() else { return };
     let Some(t) = lab.parameter(object) else { return };
-    let dial_width = dial::width(whole.size(), curve.space().is_periodic());
+    let building = lab.knots.builder.is_some();
+    // The builder needs the whole width.
+    let dial_width = dial::width(whole.size(), curve.space().is_periodic() && !building);
     let area = Rect::from_min_max(whole.min + vec2(dial_width, 0.0), whole.max);
     let active = basis::active(&curve, t);
-    let building = lab.knots.builder.is_some();
     let bars_width = if building { 0.0 } else { bars::width(area.width(), active.values.len()) };
     let inner = Rect::from_min_max(area.min, area.max - vec2(bars_width, 0.0)).shrink2(vec2(4.0, 0.0));
     let split = inner.bottom() - KNOT_STRIP;
