@@ -3,7 +3,8 @@
 use eframe::egui::Ui;
 
 use crate::app::hands::arrow_keys;
-use crate::app::knot_line::hand::{Stack, reason};
+use crate::app::knot_line::hand::Stack;
+use crate::app::knot_line::note::reason;
 use crate::app::lab::Lab;
 use crate::app::number_text::{round_to_step, short};
 use crate::core::spline_curve::KnotRule;

@@ -4,19 +4,17 @@
 //! unless Alt is held. Escape during a drag takes it back. A move that cannot be is pushed back, with its reason at the pointer.
 
 use eframe::egui::{
-    Area, Color32, Frame, Id, Key, LayerId, Order, PointerButton, Popup, PopupCloseBehavior, Pos2, Rect,
-    Response, RichText, Sense, Shape, Stroke, Ui, vec2,
+    Id, Key, PointerButton, Popup, PopupCloseBehavior, Pos2, Rect, Response, Sense, Ui, vec2,
 };
 
 use crate::app::knot_line::axis::Axis;
 use crate::app::knot_line::dial::Ring;
-use crate::app::knot_line::{Scene, actions};
+use crate::app::knot_line::{Scene, actions, note};
 use crate::app::lab::{Hovered, Lab};
 use crate::app::number_field::{NumberEvent, NumberField};
-use crate::app::number_text::{compact, round_to_step, short};
-use crate::app::painter::color32;
-use crate::core::bspline::{SplineError, SplineSpace};
-use crate::document::{Edit, EditError, ObjectId, ShapeChange};
+use crate::app::number_text::{round_to_step, short};
+use crate::core::bspline::SplineSpace;
+use crate::document::{Edit, ObjectId};
 
 /// Distance in points within which knots snap together.
 const SNAP: f32 = 6.0;
@@ -237,7 +235,7 @@ impl Hand {
             menu(lab, scene, stack, response);
         }
         if self.drag.is_none() && response.hovered() && !response.context_menu_opened() {
-            response.clone().on_hover_text(hint(scene, stack));
+            response.clone().on_hover_text(note::hint(scene, stack));
         }
     }
 
@@ -269,7 +267,7 @@ impl Hand {
             match lab.history.update(actions::kept(lab, edit)) {
                 Ok(outcome) => {
                     lab.shape_note = outcome.shape.sentence();
-                    drag.effect = effect(&outcome.shape, lab.knots.keep_curve);
+                    drag.effect = note::effect(&outcome.shape, lab.knots.keep_curve);
                     // A knot that went onto the seam from the left stands at the start of the period.
                     let space = lab.history.document().curve(drag.object).map(|curve| curve.space());
                     drag.now = space.filter(|space| !space.knots().contains(&to)).map_or(to, |space| {
@@ -279,7 +277,7 @@ impl Hand {
                     lab.selection.knot = Some(drag.now);
                 }
                 // It stays at the last place where it could be.
-                Err(error) => drag.refusal = Some(reason(&error)),
+                Err(error) => drag.refusal = Some(note::reason(&error)),
             }
         }
         if response.drag_stopped() {
@@ -300,9 +298,9 @@ impl Hand {
         }
         if let Some(drag) = &self.drag {
             if drag.refusal.is_some() {
-                leash(lab, ui, place(drag.now));
+                note::leash(lab, ui, place(drag.now));
             }
-            note(lab, ui, drag);
+            note::show(lab, ui, drag.object, drag.now, drag.effect.clone(), drag.refusal.clone());
         }
         ui.data_mut(|data| match self.drag {
             Some(drag) => {
@@ -310,109 +308,6 @@ impl Hand {
             }
             None => data.remove::<KnotDrag>(drag_id(self.id)),
         });
-    }
-}
-
-/// From the knot that does not follow to the pointer.
-fn leash(lab: &Lab, ui: &Ui, knot: Pos2) {
-    let Some(pointer) = ui.input(|input| input.pointer.latest_pos()) else { return };
-    let pen = Stroke::new(1.4 * lab.theme.stroke_scale as f32, color32(lab.theme.error));
-    let painter = ui.ctx().layer_painter(LayerId::new(Order::Foreground, Id::unique("leash of a knot")));
-    painter.extend(Shape::dashed_line(&[knot, pointer], pen, 4.0, 3.0));
-    painter.circle_stroke(pointer, 4.0, pen);
-}
-
-fn hint(scene: &Scene, stack: &Stack) -> String {
-    let (value, multiplicity) = (short(stack.value), stack.multiplicity);
-    let mut what = format!("Knot {value}, multiplicity {multiplicity}");
-    if is_inside(scene.curve.space(), stack.value) {
-        let order = continuity(scene.curve.degree(), multiplicity);
-        what = format!("{what}: the curve is {order} here");
-    }
-    format!(
-        "{what}\nDrag: move one copy; Shift: the whole stack; Alt: without snapping\nDelete: remove one copy"
-    )
-}
-
-/// Place, effect and refusal of a drag, beside the pointer.
-fn note(lab: &Lab, ui: &Ui, drag: &KnotDrag) {
-    let Some(pointer) = ui.input(|input| input.pointer.latest_pos()) else { return };
-    let curve = lab.history.document().curve(drag.object);
-    let copies = curve.map_or(1, |curve| curve.space().multiplicity(drag.now));
-    let mut first = format!("knot {}", short(drag.now));
-    if copies > 1 {
-        first = format!("{first}, {copies} copies");
-    }
-    if let Some(curve) = curve.filter(|curve| is_inside(curve.space(), drag.now)) {
-        first = format!("{first} \u{b7} {}", continuity(curve.degree(), copies));
-    }
-    let lines = [
-        (first, color32(lab.theme.text)),
-        (drag.effect.clone().unwrap_or_default(), color32(lab.theme.muted_text)),
-        (drag.refusal.clone().unwrap_or_default(), color32(lab.theme.error)),
-    ];
-    beside_pointer(ui, pointer, &lines, 12.0 * lab.theme.text_scale as f32);
-}
-
-/// A small note above and right of the pointer; nothing can be clicked on it.
-fn beside_pointer(ui: &Ui, pointer: Pos2, lines: &[(String, Color32)], size: f32) {
-    Area::new(Id::unique("note on a knot"))
-        .order(Order::Tooltip)
-        .interactable(false)
-        .constrain(true)
-        .pivot(eframe::egui::Align2::LEFT_BOTTOM)
-        .fixed_pos(pointer + vec2(14.0, -12.0))
-        .show(ui.ctx(), |ui| {
-            Frame::popup(ui.style()).show(ui, |ui| {
-                ui.spacing_mut().item_spacing.y = 2.0;
-                for (text, color) in lines.iter().filter(|(text, _)| !text.is_empty()) {
-                    let text = RichText::new(text).color(*color).size(size);
-                    ui.add(eframe::egui::Label::new(text).extend());
-                }
-            });
-        });
-}
-
-/// What a moved knot does to the curve, in a few words.
-fn effect(shape: &ShapeChange, keep_curve: bool) -> Option<String> {
-    let ShapeChange::Changed { deviation, .. } = shape else { return None };
-    Some(match (deviation, keep_curve) {
-        (Some(deviation), true) => format!("curve kept within {} (certified)", compact(*deviation)),
-        (Some(deviation), false) => {
-            format!("control points kept, curve moves by up to {}", compact(*deviation))
-        }
-        (None, true) => "curve nearly kept".to_owned(),
-        (None, false) => "control points kept, curve moves".to_owned(),
-    })
-}
-
-/// Why knots do not go somewhere, as people say it.
-pub(super) fn reason(error: &EditError) -> String {
-    match error {
-        EditError::Spline(SplineError::KnotMultiplicityTooHigh { value, multiplicity, degree, .. }) => {
-            format!(
-                "{} is full: with {multiplicity} copies a curve of degree {degree} would fall apart",
-                short(*value)
-            )
-        }
-        EditError::Spline(SplineError::KnotsNotRegular { side: Some(_), value, .. }) => {
-            format!("No room: the curve would have an empty interval at its end {}", short(*value))
-        }
-        EditError::Spline(SplineError::PeriodTooShort { .. }) => {
-            "The first and the last knot of a period stay apart".to_owned()
-        }
-        EditError::KnotBlocked { low, high, .. } => {
-            format!("A whole stack stays strictly between {} and {}", short(*low), short(*high))
-        }
-        EditError::IntervalChanged { left, right, .. } => format!(
-            "Keeping the curve keeps its interval [{}, {}]: choose \u{201c}Keep points\u{201d} to move an end",
-            short(*left),
-            short(*right)
-        ),
-        EditError::Spline(SplineError::WeightNotPositive { .. }) => {
-            "No positive weights keep the curve there".to_owned()
-        }
-        other => other.to_string(),
     }
 }
 

@@ -9,7 +9,9 @@ mod dial;
 mod hand;
 mod header;
 mod knots;
+mod note;
 mod plot;
+mod pyramid;
 
 use eframe::egui::{Color32, Rect, RichText, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 use glam::DVec2;
