@@ -162,6 +162,34 @@ fn a_knot_is_dragged_stacked_and_pulled_apart_with_the_mouse() {
 }
 
 #[test]
+fn the_knot_under_the_press_moves_even_if_the_frame_is_slow() {
+    let mut window = window(open_curve());
+    let (two, three) = (place(&window, "Knot 2"), place(&window, "Knot 3"));
+    let t = lab(&window).parameter(lab(&window).selection.object.unwrap());
+    window.hover_at(two);
+    window.step();
+    // The press and the way to the next knot come in one frame.
+    let (button, modifiers) = (PointerButton::Primary, Modifiers::NONE);
+    window.input_mut().events.extend([
+        Event::PointerButton { pos: two, button, pressed: true, modifiers },
+        Event::PointerMoved(three),
+    ]);
+    window.step();
+    window.hover_at(three - vec2(30.0, 0.0));
+    window.step();
+    window.drop_at(three - vec2(30.0, 0.0));
+    window.run_steps(3);
+    let moved = knots(&window);
+    assert!(moved[5] > 2.3 && moved[5] < 3.0 && moved[6..] == OPEN[6..], "{moved:?}");
+    assert_eq!(lab(&window).parameter(lab(&window).selection.object.unwrap()), t, "t stays");
+    assert_eq!(lab(&window).history.steps().0, 1, "one step");
+    // A press that stays where it is selects and changes nothing.
+    let one = place(&window, "Knot 1");
+    drag(&mut window, one, vec2(2.0, 1.0));
+    assert_eq!((lab(&window).selection.knot, lab(&window).history.steps().0), (Some(1.0), 1), "a click");
+}
+
+#[test]
 fn a_move_that_cannot_be_is_pushed_back_with_its_reason() {
     let mut window = window(open_curve());
     let two = place(&window, "Knot 2");

@@ -23,6 +23,8 @@ pub(crate) fn key_text(command: Command, ctx: &Context) -> Option<String> {
     let sign = match key {
         "OpenBracket" => "[",
         "CloseBracket" => "]",
+        "Period" => ".",
+        "Comma" => ",",
         "PageUp" => "Page up",
         "PageDown" => "Page down",
         other => other,

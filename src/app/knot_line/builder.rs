@@ -114,8 +114,8 @@ pub(super) fn keys(lab: &mut Lab, ui: &Ui, count: usize, degree: usize) {
     }
 }
 
-/// Shows the builder in place of the basis; `response` is the area of the whole knot line.
-pub(super) fn show(lab: &mut Lab, ui: &Ui, scene: &Scene, response: &Response) {
+/// Shows the builder in place of the basis.
+pub(super) fn show(lab: &Lab, ui: &Ui, scene: &Scene) {
     let Some(builder) = lab.knots.builder.clone() else { return };
     let pyramid = Pyramid::new(scene.curve.space(), builder.spline);
     if pyramid.knots.len() < pyramid.degree + 2 {
@@ -132,7 +132,6 @@ pub(super) fn show(lab: &mut Lab, ui: &Ui, scene: &Scene, response: &Response) {
     } else {
         decomposition(lab, ui, scene, &pyramid, &builder, &colors);
     }
-    choose(lab, scene, &pyramid, &builder, response);
 }
 
 /// One colour for the sum, the one that the B-spline has everywhere, and two for its parts.
@@ -313,8 +312,10 @@ fn line_of_text(
     painter.galley(place.min, galley, ui.visuals().text_color());
 }
 
-/// A click on a function of the degree chooses it; elsewhere it sets t as on the basis.
-fn choose(lab: &mut Lab, scene: &Scene, pyramid: &Pyramid, builder: &BasisBuilder, response: &Response) {
+/// A click on a function of the degree chooses it; elsewhere it sets t as on the basis. `response` is the area of the whole knot line.
+pub(super) fn interact(lab: &mut Lab, scene: &Scene, response: &Response) {
+    let Some(builder) = lab.knots.builder.clone() else { return };
+    let pyramid = Pyramid::new(scene.curve.space(), builder.spline);
     let pointer = response.hover_pos().filter(|&at| scene.plot.contains(at));
     let near = pointer.and_then(|pointer| {
         let x = scene.axis.parameter(pointer.x);
@@ -328,7 +329,7 @@ fn choose(lab: &mut Lab, scene: &Scene, pyramid: &Pyramid, builder: &BasisBuilde
     }
     match near {
         Some(part) if response.clicked() => {
-            lab.knots.builder = Some(BasisBuilder { part, ..builder.clone() });
+            lab.knots.builder = Some(BasisBuilder { part, ..builder });
         }
         _ => plot::set_t(lab, scene, response),
     }

@@ -90,9 +90,8 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, id: Id, scene: &Scene, rect: Rect
     functions(lab, ui, scene, &ring);
     ground(lab, ui, scene, &ring);
     hand_of_t(lab, ui, id, scene, &ring);
-    ground_hands(lab, ui, scene, &ring, &response);
 
-    let mut hand = Hand::take_up(lab, ui, id);
+    let mut hand = Hand::take_up(ui, id);
     let (left, right) = scene.curve.space().parameter_interval();
     let mut last = f64::NEG_INFINITY;
     let mut last_label = f64::NEG_INFINITY;
@@ -113,22 +112,25 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, id: Id, scene: &Scene, rect: Rect
         let far = ring.place(stack.value, ring.radius + pitch(&stack) * (copies - 1.0));
         let handle = ui.interact(
             Rect::from_two_pos(near, far).expand(5.5),
-            hand.handle_id(&stack),
+            id.with(("knot", stack.first)),
             Sense::click_and_drag(),
         );
         handle.widget_info(|| {
             WidgetInfo::labeled(Role::Slider, true, format!("{} on the dial", knots::spoken(&stack)))
         });
-        let handle = handle.on_hover_and_drag_cursor(CursorIcon::Grab);
+        let handle = handle.on_hover_cursor(CursorIcon::Grab);
         let labelled = (stack.value - last_label) / ring.per_pixel() > 24.0
             && (left + period - stack.value > 24.0 * ring.per_pixel() || stack.value <= left);
         if labelled {
             last_label = stack.value;
         }
         paint(lab, ui, scene, &stack, &ring, labelled || handle.hovered());
-        hand.touch(lab, ui, scene, &stack, &handle, Track::Dial(ring));
+        hand.touch(lab, scene, &stack, &handle, Track::Dial(ring));
     }
-    hand.put_down(lab, ui, |value| ring.place(value, ring.radius));
+    let held = hand.put_down(lab, ui, |value| ring.place(value, ring.radius));
+    if !held {
+        ground_hands(lab, ui, scene, &ring, &response);
+    }
 }
 
 fn pitch(stack: &Stack) -> f32 {
@@ -223,6 +225,7 @@ fn hand_of_t(lab: &mut Lab, ui: &Ui, id: Id, scene: &Scene, ring: &Ring) {
     );
     response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, "Cursor of t on the dial"));
     if response.dragged_by(PointerButton::Primary)
+        && !scene.busy
         && let Some(pointer) = response.interact_pointer_pos()
     {
         set_parameter(lab, scene, ring.parameter(pointer));

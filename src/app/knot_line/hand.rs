@@ -3,10 +3,9 @@
 //! A drag moves one copy, the top one of a stack; with Shift the whole stack. Neighbours within [`SNAP`] points snap together
 //! unless Alt is held. Escape during a drag takes it back. A move that cannot be is pushed back, with its reason at the pointer.
 
-use eframe::egui::{
-    Id, Key, PointerButton, Popup, PopupCloseBehavior, Pos2, Rect, Response, Sense, Ui, vec2,
-};
+use eframe::egui::{CursorIcon, Id, Key, Popup, PopupCloseBehavior, Pos2, Response, Ui};
 
+use crate::app::hands::{DEAD_ZONE, pressed_at};
 use crate::app::knot_line::axis::Axis;
 use crate::app::knot_line::dial::Ring;
 use crate::app::knot_line::{Scene, actions, note};
@@ -89,12 +88,10 @@ impl Track {
     }
 }
 
-/// A drag of knots; all of it refers to the knots at its beginning.
+/// A press on knots, and the drag that becomes of it; all of it refers to the knots at its beginning.
 #[derive(Clone, Debug)]
 struct KnotDrag {
     object: ObjectId,
-    /// The widget that the pointer holds.
-    handle: Id,
     stack: Stack,
     /// Values of the distinct knots before and after, infinite if there is none.
     before: f64,
@@ -102,6 +99,8 @@ struct KnotDrag {
     /// Where the pointer went down.
     press: Pos2,
     track: Track,
+    /// Whether the pointer has gone far enough to mean a drag.
+    started: bool,
     /// How far the pointer has gone, in parameter.
     way: f64,
     /// Where the moved knot stands now.
@@ -150,157 +149,88 @@ pub(super) fn frozen(ui: &Ui, id: Id) -> Option<Track> {
 }
 
 /// The hand on the knots of one view, for one frame.
+///
+/// It looks at the pointer itself: in a slow frame the pointer has left the handle before a widget hears of the press.
 #[derive(Debug)]
 pub(super) struct Hand {
     id: Id,
     drag: Option<KnotDrag>,
-    /// The widget that was held when the frame began, even if the drag ends in this frame.
-    held: Option<Id>,
-    /// Whether it has been shown.
-    shown: bool,
+    /// Where the button went down in this frame.
+    press: Option<Pos2>,
 }
 
 impl Hand {
-    pub(super) fn take_up(lab: &mut Lab, ui: &Ui, id: Id) -> Self {
-        let mut drag: Option<KnotDrag> = ui.data(|data| data.get_temp(drag_id(id)));
-        if drag.is_some() && !ui.input(|input| input.pointer.any_down() || input.pointer.any_released()) {
-            // The button went up where nobody saw it.
-            lab.commit();
-            drag = None;
-        }
-        Self { id, held: drag.as_ref().map(|drag| drag.handle), drag, shown: false }
+    pub(super) fn take_up(ui: &Ui, id: Id) -> Self {
+        let press = pressed_at(ui).filter(|&at| {
+            !ui.ctx().any_popup_open() && ui.ctx().layer_id_at(at).is_none_or(|layer| layer == ui.layer_id())
+        });
+        Self { id, drag: ui.data(|data| data.get_temp(drag_id(id))), press }
     }
 
-    /// Whether the knot that is dragged now stands in `stack` and has no handle yet.
+    /// Whether the knot that is dragged now stands in `stack`.
     pub(super) fn holds(&self, stack: &Stack) -> bool {
-        !self.shown && self.drag.as_ref().is_some_and(|drag| (stack.value - drag.now).abs() <= 0.0)
-    }
-
-    /// The widget of `stack`: the pointer keeps the one that it holds, wherever that knot goes.
-    pub(super) fn handle_id(&mut self, stack: &Stack) -> Id {
-        let own = self.id.with(("knot", stack.first));
-        match self.held {
-            Some(handle) if self.holds(stack) => {
-                self.shown = true;
-                handle
-            }
-            Some(handle) if handle == own => own.with("released"),
-            _ => own,
-        }
+        self.drag.as_ref().is_some_and(|drag| (stack.value - drag.now).abs() <= 0.0)
     }
 
     /// What the mouse does to one stack.
     pub(super) fn touch(
         &mut self,
         lab: &mut Lab,
-        ui: &Ui,
         scene: &Scene,
         stack: &Stack,
         response: &Response,
         track: Track,
     ) {
-        if response.hovered() {
+        if response.hovered() || self.holds(stack) {
             lab.hovering = Hovered::Knot(scene.object, stack.value);
         }
         if response.clicked() {
-            lab.selection.knot = Some(stack.value);
-            lab.selection.points.clear();
+            select(lab, stack.value);
         }
-        if response.drag_started_by(PointerButton::Primary)
-            && let Some(press) = ui.input(|input| input.pointer.press_origin())
+        if self.drag.is_none()
+            && let Some(press) = self.press.filter(|&at| response.rect.contains(at))
         {
             let space = scene.curve.space();
             let neighbour = |index: isize, none: f64| space.knot(index).unwrap_or(none);
             self.drag = Some(KnotDrag {
                 object: scene.object,
-                handle: response.id,
                 stack: *stack,
                 before: neighbour(stack.first - 1, f64::NEG_INFINITY),
                 after: neighbour(stack.first + stack.multiplicity as isize, f64::INFINITY),
                 press,
                 track,
+                started: false,
                 way: 0.0,
                 now: stack.value,
                 effect: None,
                 refusal: None,
             });
-            lab.selection.knot = Some(stack.value);
-            lab.selection.points.clear();
-            lab.begin(if lab.knots.keep_curve { "Move knot, curve kept" } else { "Move knot" });
         }
-        if self.drag.as_ref().is_some_and(|drag| drag.handle == response.id) {
-            self.shown = true;
-            self.follow(lab, ui, response);
-        } else if self.drag.is_none() {
+        if self.drag.is_none() {
             menu(lab, scene, stack, response);
-        }
-        if self.drag.is_none() && response.hovered() && !response.context_menu_opened() {
-            response.clone().on_hover_text(note::hint(scene, stack));
-        }
-    }
-
-    /// One frame of a drag.
-    fn follow(&mut self, lab: &mut Lab, ui: &Ui, response: &Response) {
-        let Some(drag) = &mut self.drag else { return };
-        if ui.input(|input| input.key_pressed(Key::Escape)) {
-            lab.history.cancel();
-            self.drag = None;
-            return;
-        }
-        if response.dragged()
-            && let Some(pointer) = response.interact_pointer_pos()
-        {
-            let (shift, alt) = ui.input(|input| (input.modifiers.shift, input.modifiers.alt));
-            let whole = shift && drag.stack.multiplicity > 1;
-            drag.way = drag.track.way(drag.press, pointer, drag.way);
-            let Target { to, refusal } = drag.target(whole, !alt);
-            let start = drag.stack.value;
-            // At the start a drag amounts to nothing; the document needs an edit that says so.
-            let edit = if whole {
-                Edit::MoveDistinctKnot { object: drag.object, at: start, to }
-            } else {
-                let last = drag.stack.first + drag.stack.multiplicity as isize - 1;
-                let index = if to > start { last } else { drag.stack.first };
-                Edit::MoveKnot { object: drag.object, knot: index.max(0) as usize, to }
-            };
-            drag.refusal = refusal;
-            match lab.history.update(actions::kept(lab, edit)) {
-                Ok(outcome) => {
-                    lab.shape_note = outcome.shape.sentence();
-                    drag.effect = note::effect(&outcome.shape, lab.knots.keep_curve);
-                    // A knot that went onto the seam from the left stands at the start of the period.
-                    let space = lab.history.document().curve(drag.object).map(|curve| curve.space());
-                    drag.now = space.filter(|space| !space.knots().contains(&to)).map_or(to, |space| {
-                        let (left, _) = space.parameter_interval();
-                        space.reduce(to).map_or(to, |at| if space.knots().contains(&at) { at } else { left })
-                    });
-                    lab.selection.knot = Some(drag.now);
-                }
-                // It stays at the last place where it could be.
-                Err(error) => drag.refusal = Some(note::reason(&error)),
+            if response.hovered() && !response.context_menu_opened() {
+                response.clone().on_hover_text(note::hint(scene, stack));
             }
         }
-        if response.drag_stopped() {
-            lab.commit();
-            self.drag = None;
-        }
     }
 
-    /// Ends the frame; `place` tells where a value stands on the screen.
-    pub(super) fn put_down(mut self, lab: &mut Lab, ui: &Ui, place: impl Fn(f64) -> Pos2) {
-        if let Some((handle, now)) = self.drag.as_ref().map(|drag| (drag.handle, drag.now))
-            && !self.shown
+    /// Ends the frame; `place` tells where a value stands on the screen. Returns whether a knot was held.
+    pub(super) fn put_down(mut self, lab: &mut Lab, ui: &Ui, place: impl Fn(f64) -> Pos2) -> bool {
+        let held = self.drag.is_some();
+        if let Some(drag) = &mut self.drag
+            && !drag.follow(lab, ui)
         {
-            // Out of sight, but the pointer still holds it.
-            let rect = Rect::from_center_size(place(now), vec2(2.0, 2.0));
-            let response = ui.interact(rect, handle, Sense::click_and_drag());
-            self.follow(lab, ui, &response);
+            self.drag = None;
         }
-        if let Some(drag) = &self.drag {
+        if let Some(drag) = self.drag.as_ref().filter(|drag| drag.started) {
             if drag.refusal.is_some() {
                 note::leash(lab, ui, place(drag.now));
             }
             note::show(lab, ui, drag.object, drag.now, drag.effect.clone(), drag.refusal.clone());
+            ui.set_cursor_icon(match drag.track {
+                Track::Line(_) => CursorIcon::ResizeHorizontal,
+                Track::Dial(_) => CursorIcon::Grabbing,
+            });
         }
         ui.data_mut(|data| match self.drag {
             Some(drag) => {
@@ -308,6 +238,74 @@ impl Hand {
             }
             None => data.remove::<KnotDrag>(drag_id(self.id)),
         });
+        held
+    }
+}
+
+fn select(lab: &mut Lab, knot: f64) {
+    lab.selection.knot = Some(knot);
+    lab.selection.points.clear();
+}
+
+impl KnotDrag {
+    /// One frame; `false` if it is over.
+    fn follow(&mut self, lab: &mut Lab, ui: &Ui) -> bool {
+        let (down, escape) = ui.input(|input| (input.pointer.primary_down(), input.key_pressed(Key::Escape)));
+        if escape {
+            lab.history.cancel();
+            return false;
+        }
+        if let Some(pointer) = ui.input(|input| input.pointer.latest_pos()) {
+            if !self.started && pointer.distance(self.press) >= DEAD_ZONE {
+                self.started = true;
+                select(lab, self.stack.value);
+                lab.begin(if lab.knots.keep_curve { "Move knot, curve kept" } else { "Move knot" });
+            }
+            if self.started {
+                self.pull(lab, ui, pointer);
+            }
+        }
+        if !down {
+            if self.started {
+                lab.commit();
+            } else {
+                select(lab, self.stack.value);
+            }
+        }
+        down
+    }
+
+    /// The knot goes where the pointer is, if it can.
+    fn pull(&mut self, lab: &mut Lab, ui: &Ui, pointer: Pos2) {
+        let (shift, alt) = ui.input(|input| (input.modifiers.shift, input.modifiers.alt));
+        let whole = shift && self.stack.multiplicity > 1;
+        self.way = self.track.way(self.press, pointer, self.way);
+        let Target { to, refusal } = self.target(whole, !alt);
+        let (object, start) = (self.object, self.stack.value);
+        // At the start a drag amounts to nothing; the document needs an edit that says so.
+        let edit = if whole {
+            Edit::MoveDistinctKnot { object, at: start, to }
+        } else {
+            let last = self.stack.first + self.stack.multiplicity as isize - 1;
+            let index = if to > start { last } else { self.stack.first };
+            Edit::MoveKnot { object, knot: index.max(0) as usize, to }
+        };
+        self.refusal = refusal;
+        match lab.history.update(actions::kept(lab, edit)) {
+            Ok(outcome) => {
+                lab.shape_note = outcome.shape.sentence();
+                self.effect = note::effect(&outcome.shape, lab.knots.keep_curve);
+                // A knot that went onto the seam from the left stands at the start of the period.
+                let space = lab.history.document().curve(object).map(|curve| curve.space());
+                self.now = space.filter(|space| !space.knots().contains(&to)).map_or(to, |space| {
+                    let (left, _) = space.parameter_interval();
+                    space.reduce(to).ok().filter(|at| space.knots().contains(at)).unwrap_or(left)
+                });
+                lab.selection.knot = Some(self.now);
+            }
+            // It stays at the last place where it could be.
+            Err(error) => self.refusal = Some(note::reason(&error)),
+        }
     }
 }
 

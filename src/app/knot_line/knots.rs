@@ -15,9 +15,9 @@ use crate::core::bspline::SplineSpace;
 /// Knots that stand closer than this, in points, are ticks without a handle.
 const CLOSEST_HANDLES: f32 = 6.0;
 
-/// Shows the knots on the strip beneath the plot.
-pub(super) fn show(lab: &mut Lab, ui: &mut Ui, id: Id, scene: &Scene) {
-    let mut hand = Hand::take_up(lab, ui, id);
+/// Shows the knots on the strip beneath the plot. Returns whether one is held.
+pub(super) fn show(lab: &mut Lab, ui: &mut Ui, id: Id, scene: &Scene) -> bool {
+    let mut hand = Hand::take_up(ui, id);
     let mut last_x = f32::NEG_INFINITY;
     let mut last_tick = f32::NEG_INFINITY;
     let mut label_end = f32::NEG_INFINITY;
@@ -36,14 +36,14 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, id: Id, scene: &Scene) {
         }
         last_x = x;
         let ghost = is_ghost(scene.curve.space(), stack.first);
-        let response = (!ghost).then(|| handle(ui, scene, stack, x, hand.handle_id(stack)));
+        let response = (!ghost).then(|| handle(ui, scene, stack, x, id.with(("knot", stack.first))));
         paint(lab, ui, scene, stack, x, ghost, response.as_ref(), &mut label_end);
         if let Some(response) = response {
-            hand.touch(lab, ui, scene, stack, &response, Track::Line(scene.axis));
+            hand.touch(lab, scene, stack, &response, Track::Line(scene.axis));
         }
     }
     let (strip, row) = (scene.strip, scene.plot.bottom() + 5.0);
-    hand.put_down(lab, ui, |value| pos2(scene.axis.x(value).clamp(strip.left(), strip.right()), row));
+    hand.put_down(lab, ui, |value| pos2(scene.axis.x(value).clamp(strip.left(), strip.right()), row))
 }
 
 /// Whether the stack belongs to a neighbouring period.
@@ -69,7 +69,7 @@ fn handle(ui: &Ui, scene: &Scene, stack: &Stack, x: f32, id: Id) -> Response {
     let rect = Rect::from_min_max(pos2(x - 6.0, scene.plot.bottom() - 3.0), pos2(x + 6.0, bottom));
     let response = ui.interact(rect, id, Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, spoken(stack)));
-    response.on_hover_and_drag_cursor(CursorIcon::ResizeHorizontal)
+    response.on_hover_cursor(CursorIcon::ResizeHorizontal)
 }
 
 /// `Knot 2, 3 copies`.

@@ -41,6 +41,8 @@ struct Scene {
     /// Where the knots stand.
     strip: Rect,
     active: Active,
+    /// Whether a knot is held.
+    busy: bool,
 }
 
 impl Scene {
@@ -111,15 +113,18 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
         Some(Track::Line(axis)) => axis,
         _ => Axis::new(ui, id, curve.space(), plot),
     };
+    let busy = [id, id.with("dial")].into_iter().any(|id| hand::frozen(ui, id).is_some());
     let response = ui.allocate_rect(area, Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, "Basis functions"));
     let zoomed_now = axis::navigate(ui, id, inner, &response);
     ui.data_mut(|data| data.insert_temp(id.with("zoomed"), zoomed_now));
 
-    let scene = Scene { object, curve, t, axis, plot, strip, active };
+    let scene = Scene { object, curve, t, axis, plot, strip, active, busy };
     builder::tidy(lab, &scene);
-    plot::show(lab, ui, &scene, &response);
-    knots::show(lab, ui, id, &scene);
+    plot::show(lab, ui, &scene);
+    if !knots::show(lab, ui, id, &scene) && !busy {
+        plot::interact(lab, ui, &scene, &response);
+    }
     if bars_width > 0.0 {
         let rect = Rect::from_min_max(pos2(inner.right() + 8.0, area.top()), area.max);
         bars::show(lab, ui, &scene, rect);

@@ -17,17 +17,14 @@ use crate::document::Edit;
 /// A function is under the pointer within this distance in points.
 const REACH: f32 = 7.0;
 
-/// Shows the functions; `response` is the area of the whole knot line.
-pub(super) fn show(lab: &mut Lab, ui: &mut Ui, scene: &Scene, response: &Response) {
+/// Shows the functions, or the builder in their place, and the parameter.
+pub(super) fn show(lab: &mut Lab, ui: &mut Ui, scene: &Scene) {
     ground(lab, ui, scene);
     if lab.knots.builder.is_some() {
-        builder::show(lab, ui, scene, response);
+        builder::show(lab, ui, scene);
         cursor(lab, ui, scene);
-        note_place(ui, scene, response);
-        menu(lab, scene, response);
         return;
     }
-    let near = function_under(scene, response);
     let (graphs, too_many) = basis::graphs(&scene.curve, &scene.axis, scene.t);
     paint_graphs(lab, ui, scene, &graphs);
     if too_many {
@@ -47,7 +44,6 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, scene: &Scene, response: &Respons
         );
     }
     cursor(lab, ui, scene);
-    interact(lab, ui, scene, response, near);
 }
 
 /// D shaded, hatching beyond, the axis.
@@ -188,6 +184,7 @@ fn cursor(lab: &mut Lab, ui: &mut Ui, scene: &Scene) {
     let response = ui.interact(handle, ui.make_persistent_id("cursor of t"), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, "Cursor of t"));
     if response.dragged_by(PointerButton::Primary)
+        && !scene.busy
         && let Some(pointer) = response.interact_pointer_pos()
     {
         lab.set_parameter(scene.object, scene.axis.parameter(pointer.x));
@@ -213,7 +210,15 @@ fn cursor(lab: &mut Lab, ui: &mut Ui, scene: &Scene) {
     }
 }
 
-fn interact(lab: &mut Lab, ui: &Ui, scene: &Scene, response: &Response, near: Option<usize>) {
+/// What the mouse does beside the knots; `response` is the area of the whole knot line.
+pub(super) fn interact(lab: &mut Lab, ui: &Ui, scene: &Scene, response: &Response) {
+    if lab.knots.builder.is_some() {
+        builder::interact(lab, scene, response);
+        note_place(ui, scene, response);
+        menu(lab, scene, response);
+        return;
+    }
+    let near = function_under(scene, response);
     let over = response.hover_pos().filter(|at| scene.plot.union(scene.strip).contains(*at));
     let (left, right) = scene.curve.space().parameter_interval();
     if let Some(pointer) = over.filter(|_| response.hovered()) {
