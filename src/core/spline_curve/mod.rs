@@ -28,13 +28,14 @@
 //! | `curvature` | frames, signed curvature and its derivative, osculating circles, torsion |
 //! | `inflections`, `vertices`, `curvature_polynomial` | B.7 where curvature changes sign, where it is extreme, and the polynomials behind |
 //! | `tight_box` | B.7 the smallest box, extreme points |
-//! | `local_piece`, `foot_polynomial`, `piecewise_sign` | B.5, B.7 what closest points and features are made of |
+//! | `local_piece`, `foot_polynomial`, `chord`, `piecewise_sign` | B.5, B.7 what closest points and features are made of |
 
 mod arc_length;
 mod batch;
 mod bezier_conversion;
 mod bezier_form;
 mod blossom;
+mod chord;
 mod chord_polygon;
 mod closest_point;
 mod curvature;
