@@ -11,7 +11,7 @@ use spline_lab::app::command::Command;
 use spline_lab::app::lab::{Hovered, Lab};
 use spline_lab::core::bspline::SplineSpace;
 use spline_lab::core::spline_curve::Nurbs;
-use spline_lab::document::{CurveDisplay, Document, Edit, View};
+use spline_lab::document::{CurveDisplay, Document, Edit, View, from_json, to_json};
 
 /// Seconds from frame to frame, as on a screen.
 const FRAME: f32 = 1.0 / 60.0;
@@ -517,6 +517,38 @@ fn the_builder_takes_a_b_spline_apart_by_mouse_and_keys() {
     assert_eq!(lab(&window).history.steps().0, 0, "looking changes nothing");
     click(&mut window, "Builder");
     assert!(lab(&window).knots.builder.is_none(), "closed");
+}
+
+#[test]
+fn a_document_remembers_that_the_builder_was_open() {
+    let mut window = window(open_curve());
+    command(&mut window, Command::ToggleBuilder);
+    let text = to_json(lab(&window).history.document(), &lab(&window).view);
+    let saved = from_json(&text).unwrap();
+    *lab_mut(&mut window) = Lab::new(saved.document, saved.view);
+    window.run_steps(3);
+    assert!(lab(&window).knots.builder.is_some(), "opened with the document");
+}
+
+#[test]
+fn a_rule_is_found_by_name_and_the_dial_keeps_a_rational_curve() {
+    let mut window = window(closed_curve());
+    key(&mut window, Modifiers::COMMAND, Key::P);
+    window.event(Event::Text("chord length".to_owned()));
+    window.run_steps(3);
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    assert_eq!(lab(&window).history.undo_name(), Some("Chord length knots"), "by keys alone");
+    undo(&mut window);
+    lab_mut(&mut window).knots.keep_curve = true;
+    let (two, three) = (place(&window, "Knot 2 on the dial"), place(&window, "Knot 3 on the dial"));
+    hold(&mut window, two, (three - two) * 0.3);
+    assert!(says(&window, "curve kept within"), "the certified deviation beside the pointer");
+    window.drop_at(two + (three - two) * 0.3);
+    window.run_steps(3);
+    assert!(knots(&window)[2] > 2.1, "{:?}", knots(&window));
+    assert!(distance(&closed_curve(), &curve(&window)) < 0.2, "the curve stays near");
+    undo(&mut window);
+    assert_eq!(curve(&window), closed_curve(), "undone exactly");
 }
 
 #[test]

@@ -5,6 +5,7 @@ use eframe::egui::{
     Align2, Color32, FontId, Mesh, Pos2, Response, RichText, Role, Shape, Slider, Stroke, Ui, pos2, vec2,
 };
 
+use crate::app::BASIS_BUILDER;
 use crate::app::hands::arrow_keys;
 use crate::app::knot_line::hand::raised;
 use crate::app::knot_line::pyramid::Pyramid;
@@ -26,8 +27,25 @@ fn lowered(number: usize) -> String {
     number.to_string().bytes().map(digit).collect()
 }
 
+/// Opens or shuts the builder, which the document remembers with its panels.
+pub(super) fn toggle(lab: &mut Lab) {
+    let open = lab.knots.builder.is_none();
+    lab.view.panels.insert(BASIS_BUILDER.to_owned(), open);
+    follow_panel(lab);
+}
+
+/// Opens or shuts the builder as the panels of the document say.
+pub(super) fn follow_panel(lab: &mut Lab) {
+    let open = lab.view.panels.get(BASIS_BUILDER).copied().unwrap_or(false);
+    if !open {
+        lab.knots.builder = None;
+    } else if lab.knots.builder.is_none() {
+        lab.knots.builder = opened(lab);
+    }
+}
+
 /// The builder as it opens: with the selected control point's B-spline, else with the largest at t.
-pub(super) fn opened(lab: &Lab) -> Option<BasisBuilder> {
+fn opened(lab: &Lab) -> Option<BasisBuilder> {
     let (object, curve) = lab.selection.object.zip(lab.curve())?;
     let active = super::basis::active(curve, lab.parameter(object)?);
     let largest =

@@ -23,6 +23,9 @@ const MARGIN_BESIDE: f32 = 46.0;
 /// Height of a function of value 1 as a share of the radius.
 const HEIGHT: f32 = 0.42;
 
+/// More functions than this would be a grey ring; they are left to the line.
+const MOST_FUNCTIONS: usize = 60;
+
 /// From this radius on every knot tells how smooth the curve is there.
 const ROOMY: f32 = 70.0;
 
@@ -179,7 +182,7 @@ fn functions(lab: &Lab, ui: &Ui, scene: &Scene, ring: &Ring) {
     let step = 2.5 * ring.per_pixel();
     let (left, _) = scene.curve.space().parameter_interval();
     let count = scene.curve.points().len();
-    if count > 60 {
+    if count > MOST_FUNCTIONS {
         return;
     }
     let mut lines: Vec<Vec<Pos2>> = vec![Vec::new(); count];
@@ -245,6 +248,9 @@ fn hand_of_t(lab: &mut Lab, ui: &Ui, id: Id, scene: &Scene, ring: &Ring) {
 
 /// The control point whose function runs through `at`.
 fn function_at(scene: &Scene, ring: &Ring, at: Pos2) -> Option<usize> {
+    if scene.curve.points().len() > MOST_FUNCTIONS {
+        return None;
+    }
     let active = basis::active(&scene.curve, inside(scene, ring.parameter(at)));
     let from_center = at.distance(ring.center);
     let distance = |value: f64| (ring.radius * (1.0 - HEIGHT * value as f32) - from_center).abs();

@@ -37,7 +37,7 @@ pub(super) fn show(
             .selectable_label(on, "Builder")
             .on_hover_text("One B-spline as two of lower degree times linear factors (section 4.1)");
         if toggle.clicked() {
-            lab.knots.builder = if on { None } else { builder::opened(lab) };
+            builder::toggle(lab);
         }
         if lab.knots.builder.is_some() {
             ui.separator();

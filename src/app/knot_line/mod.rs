@@ -84,6 +84,7 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
         return;
     };
     let Some(t) = lab.parameter(object) else { return };
+    builder::follow_panel(lab);
     let id = ui.make_persistent_id("knot line axis").with(object);
     let zoomed = ui.data(|data| data.get_temp::<bool>(id.with("zoomed"))).unwrap_or(false);
     header::show(lab, ui, object, &curve, t, zoomed.then_some(id));
@@ -148,7 +149,7 @@ pub(crate) fn execute(command: Command, lab: &mut Lab) -> bool {
         Command::PreviousKnot => actions::select_neighbour(lab, false),
         Command::ToggleKeepCurve => lab.knots.keep_curve = !lab.knots.keep_curve,
         Command::ToggleBuilder => {
-            lab.knots.builder = if lab.knots.builder.is_some() { None } else { builder::opened(lab) };
+            builder::toggle(lab);
             lab.view.panels.insert(crate::app::KNOT_LINE.to_owned(), true);
         }
         _ => return false,
