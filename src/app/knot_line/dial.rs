@@ -79,7 +79,7 @@ impl Ring {
 /// Width of the dial in a knot line of `size`; 0 where there is no room or the curve is open.
 pub(super) fn width(size: Vec2, periodic: bool) -> f32 {
     let side = (size.y + 2.0 * (MARGIN_BESIDE - MARGIN)).min(0.4 * size.x);
-    if periodic && size.y >= 90.0 && size.x >= 460.0 { side } else { 0.0 }
+    if periodic && size.y >= 90.0 && size.x >= 380.0 { side } else { 0.0 }
 }
 
 /// Shows the dial in `rect`.
@@ -169,7 +169,7 @@ fn ground(lab: &Lab, ui: &Ui, scene: &Scene, ring: &Ring) {
     let font = FontId::proportional(10.0 * theme.text_scale as f32);
     let text = format!("T = {}\nseam {}", compact(ring.period), compact(left));
     let galley = painter.layout(text, font, color32(theme.muted_text), 2.0 * ring.radius);
-    if galley.size().x < KNOB * 2.0 * ring.radius {
+    if galley.size().x < ring.radius {
         let place = Align2::CENTER_CENTER.anchor_size(ring.center, galley.size());
         painter.galley(place.min, galley, color32(theme.muted_text));
     }

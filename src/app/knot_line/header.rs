@@ -21,7 +21,8 @@ pub(super) fn show(
     t: f64,
     zoomed: Option<Id>,
 ) {
-    ui.horizontal(|ui| {
+    // A narrow window takes a second row rather than controls beyond its edge.
+    ui.horizontal_wrapped(|ui| {
         parameter(lab, ui, object, curve, t);
         ui.separator();
         let on = lab.knots.builder.is_some();
@@ -48,7 +49,7 @@ pub(super) fn show(
         {
             axis::reset(ui, id);
         }
-        if lab.knots.builder.is_none() {
+        if lab.knots.builder.is_none() && ui.available_width() > 120.0 {
             ui.add(Label::new(RichText::new(description(curve)).weak()).truncate());
         }
     });
