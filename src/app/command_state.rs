@@ -23,6 +23,8 @@ pub(crate) fn key_text(command: Command, ctx: &Context) -> Option<String> {
     let sign = match key {
         "OpenBracket" => "[",
         "CloseBracket" => "]",
+        "Period" => ".",
+        "Comma" => ",",
         "PageUp" => "Page up",
         "PageDown" => "Page down",
         other => other,
@@ -63,6 +65,15 @@ pub(crate) fn is_possible(command: Command, lab: &Lab) -> bool {
         | Command::RaiseElementDegree
         | Command::LowerElementDegree => problem(lab).is_some(),
         Command::InsertKnot
+        | Command::RemoveKnotsWithin
+        | Command::NextKnot
+        | Command::PreviousKnot
+        | Command::UniformKnots
+        | Command::EndInterpolatingKnots
+        | Command::ChordLengthKnots
+        | Command::CentripetalKnots
+        | Command::AveragedKnots
+        | Command::ToggleBuilder
         | Command::RefineUniformly
         | Command::ToggleClosed
         | Command::Reverse
@@ -112,6 +123,8 @@ pub(crate) fn is_on(command: Command, lab: &Lab) -> Option<bool> {
         Command::ToggleLeftPanel => panel(LEFT_PANEL),
         Command::ToggleRightPanel => panel(RIGHT_PANEL),
         Command::ToggleKnotLine => panel(KNOT_LINE),
+        Command::ToggleKeepCurve => lab.knots.keep_curve,
+        Command::ToggleBuilder => lab.knots.builder.is_some(),
         Command::LookLight => lab.theme.name == "light",
         Command::LookDark => lab.theme.name == "dark",
         Command::LookPresentation => lab.theme.name == "presentation",

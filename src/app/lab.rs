@@ -86,6 +86,36 @@ pub struct StepperState {
     pub elapsed: f64,
 }
 
+/// What hands do to knots, and what the knot line shows.
+#[derive(Clone, Debug)]
+pub struct KnotHands {
+    /// Whether the curve stays, nearly, while knots move; else the control points stay.
+    pub keep_curve: bool,
+    /// Largest deviation when knots are removed that the curve does not need.
+    pub tolerance: f64,
+    /// The builder of one B-spline, if it is shown in place of the basis.
+    pub builder: Option<BasisBuilder>,
+}
+
+impl Default for KnotHands {
+    fn default() -> Self {
+        Self { keep_curve: false, tolerance: 0.01, builder: None }
+    }
+}
+
+/// One B-spline as two of lower degree.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BasisBuilder {
+    /// Index of the B-spline.
+    pub spline: usize,
+    /// Degree of what is taken apart.
+    pub degree: usize,
+    /// Which of that degree, counted from the left.
+    pub part: usize,
+    /// From 0, both parts on the axis, to 1, one upon the other.
+    pub slide: f64,
+}
+
 /// The lesson that is open.
 #[derive(Clone, Debug)]
 pub struct LessonState {
@@ -138,6 +168,8 @@ pub struct Lab {
     pub side: SidePage,
     /// The stepper panel.
     pub stepper: StepperState,
+    /// The knot line.
+    pub knots: KnotHands,
     /// The open lesson, if any.
     pub lesson: Option<LessonState>,
     /// What the last operation did to the shape, as a sentence for the status line.
@@ -169,6 +201,7 @@ impl Lab {
             theme: Theme::light(),
             side: SidePage::Inspector,
             stepper: StepperState::default(),
+            knots: KnotHands::default(),
             lesson: None,
             shape_note: None,
             messages: Vec::new(),

@@ -31,6 +31,11 @@ impl Command {
             Self::CycleErrorPlot => (NONE, Key::L),
             Self::InsertKnot => (NONE, Key::K),
             Self::RemoveKnot => (Modifiers::SHIFT, Key::K),
+            Self::NextKnot => (NONE, Key::Period),
+            Self::PreviousKnot => (NONE, Key::Comma),
+            Self::ToggleKeepCurve => (Modifiers::SHIFT, Key::C),
+            Self::ToggleBuilder => (Modifiers::SHIFT, Key::B),
+            Self::RemoveKnotsWithin => (Modifiers::SHIFT, Key::Delete),
             Self::RefineUniformly => (NONE, Key::R),
             Self::ElevateDegree => (NONE, Key::E),
             Self::ReduceDegree => (Modifiers::SHIFT, Key::E),
@@ -91,6 +96,11 @@ impl Command {
             | Self::SampleFunction
             | Self::FirstScene
             | Self::Reverse
+            | Self::UniformKnots
+            | Self::EndInterpolatingKnots
+            | Self::ChordLengthKnots
+            | Self::CentripetalKnots
+            | Self::AveragedKnots
             | Self::ResetWeights => return None,
         };
         Some(KeyboardShortcut::new(modifiers, key))

@@ -79,6 +79,7 @@ impl Command {
             | Self::ToggleHull
             | Self::ToggleCircle
             | Self::ToggleKnotLine
+            | Self::ToggleBuilder
             | Self::StepperPlay
             | Self::StepForward
             | Self::StepBack => Some(Room::Curves),
@@ -109,6 +110,15 @@ impl Command {
             | Self::DrawTool
             | Self::InsertKnot
             | Self::RemoveKnot
+            | Self::RemoveKnotsWithin
+            | Self::NextKnot
+            | Self::PreviousKnot
+            | Self::ToggleKeepCurve
+            | Self::UniformKnots
+            | Self::EndInterpolatingKnots
+            | Self::ChordLengthKnots
+            | Self::CentripetalKnots
+            | Self::AveragedKnots
             | Self::RefineUniformly
             | Self::ElevateDegree
             | Self::ReduceDegree

@@ -61,6 +61,26 @@ pub enum Command {
     InsertKnot,
     /// Removes the selected knot.
     RemoveKnot,
+    /// Removes all knots that a tolerance does not need.
+    RemoveKnotsWithin,
+    /// Selects the next knot.
+    NextKnot,
+    /// Selects the knot before.
+    PreviousKnot,
+    /// While knots move: the control points stay, or the curve.
+    ToggleKeepCurve,
+    /// Equally distant simple knots.
+    UniformKnots,
+    /// Equally distant knots with n-fold ends.
+    EndInterpolatingKnots,
+    /// Knots spaced like the control points.
+    ChordLengthKnots,
+    /// Knots spaced like the square roots of the chords.
+    CentripetalKnots,
+    /// Averages of the chord lengths.
+    AveragedKnots,
+    /// One B-spline as two of lower degree, in the knot line.
+    ToggleBuilder,
     /// Inserts a knot in the middle of every interval.
     RefineUniformly,
     /// Raises the degree, shape kept.
@@ -173,7 +193,7 @@ pub enum Command {
 
 impl Command {
     /// All commands, in the order of menus, palette and sheet.
-    pub const ALL: [Self; 80] = [
+    pub const ALL: [Self; 90] = [
         Self::New,
         Self::Open,
         Self::Save,
@@ -200,6 +220,16 @@ impl Command {
         Self::CycleErrorPlot,
         Self::InsertKnot,
         Self::RemoveKnot,
+        Self::RemoveKnotsWithin,
+        Self::NextKnot,
+        Self::PreviousKnot,
+        Self::ToggleKeepCurve,
+        Self::UniformKnots,
+        Self::EndInterpolatingKnots,
+        Self::ChordLengthKnots,
+        Self::CentripetalKnots,
+        Self::AveragedKnots,
+        Self::ToggleBuilder,
         Self::RefineUniformly,
         Self::ElevateDegree,
         Self::ReduceDegree,

@@ -40,6 +40,34 @@ impl Command {
             Self::RemoveKnot => {
                 ("Remove knot", "Remove one copy of the selected knot; the deviation is measured")
             }
+            Self::RemoveKnotsWithin => (
+                "Remove superfluous knots",
+                "Remove as many knots as the tolerance of the knot line allows; the deviation is certified",
+            ),
+            Self::NextKnot => ("Next knot", "Select the next knot; arrow keys move it"),
+            Self::PreviousKnot => ("Previous knot", "Select the knot before; arrow keys move it"),
+            Self::ToggleKeepCurve => (
+                "Keep the curve",
+                "While knots move: keep the curve, with certified deviation, or the control points",
+            ),
+            Self::UniformKnots => ("Uniform knots", "Equal distances, simple knots"),
+            Self::EndInterpolatingKnots => {
+                ("End-interpolating knots", "Equal distances, n-fold ends; for a closed curve an n-fold seam")
+            }
+            Self::ChordLengthKnots => {
+                ("Chord length knots", "Distances like those of the active control points")
+            }
+            Self::CentripetalKnots => {
+                ("Centripetal knots", "Distances like the square roots of those of the control points")
+            }
+            Self::AveragedKnots => (
+                "Averaged knots",
+                "Averages of the chord lengths, so that each control point has its Greville abscissa near its own",
+            ),
+            Self::ToggleBuilder => (
+                "Basis builder",
+                "One B-spline as two of lower degree times linear factors, in the knot line",
+            ),
             Self::RefineUniformly => {
                 ("Refine all intervals", "Insert a knot in the middle of every interval; the shape is kept")
             }

@@ -18,6 +18,8 @@
 //! | `blossom` | 6.4 blossoms and the labels of control points |
 //! | `degree`, `degree_reduction`, `uniform_reduction` | degree elevation and reduction |
 //! | `knot_removal`, `removal_within` | the nearest curve with one knot less, and with as few knots as a tolerance allows |
+//! | `nearest_spline` | the nearest curve over other knots |
+//! | `knot_rule` | knots from the control points: uniform, end-interpolating, chord length, centripetal, averaged |
 //! | `deviation`, `hausdorff` | certified distance at equal parameters, sampled distance of two point sets |
 //! | `line_intersection`, `curve_intersection`, `self_intersection` | B.6 where a curve meets a line, another curve, itself |
 //! | `intersection_tree`, `plane_piece` | B.6 curves prepared for intersections, and the one crossing of two pieces |
@@ -58,8 +60,10 @@ mod intersection_tree;
 mod join;
 mod knot_insertion;
 mod knot_removal;
+mod knot_rule;
 mod line_intersection;
 mod local_piece;
+mod nearest_spline;
 mod nurbs;
 mod piecewise_sign;
 mod plane_piece;
@@ -95,6 +99,7 @@ pub use inflections::CurveInflections;
 pub use insertion_scheme::InsertionScheme;
 pub use intersection_tree::IntersectionTree;
 pub use knot_removal::{KnotRemoval, NurbsKnotRemoval};
+pub use knot_rule::KnotRule;
 pub use line_intersection::LineIntersection;
 pub use nurbs::Nurbs;
 pub use refinement_matrix::refinement_matrix;
