@@ -12,7 +12,7 @@ use crate::app::workspace::Room;
 use crate::core::spline_curve::Nurbs;
 use crate::course::{Lesson, Stepper, Verdict};
 use crate::document::{
-    Approximation, Document, Edit, EditError, History, ObjectId, Outcome, ShapeChange, View,
+    Approximation, Document, Edit, EditError, History, ObjectId, Outcome, ShapeChange, StepperKind, View,
 };
 use crate::figure::theme::Theme;
 
@@ -130,6 +130,8 @@ pub struct Lab {
     pub hovered: Hovered,
     /// What is found under the pointer in this frame; becomes [`Self::hovered`].
     pub hovering: Hovered,
+    /// The control points that go with the entry under the pointer, while [`Self::hovered`] is an entry.
+    pub entry_partners: Vec<usize>,
     /// The tool.
     pub tool: Tool,
     /// Colours and sizes.
@@ -165,6 +167,7 @@ impl Lab {
             selection: sheet.selection,
             hovered: Hovered::Nothing,
             hovering: Hovered::Nothing,
+            entry_partners: Vec::new(),
             tool: Tool::Select,
             theme: Theme::light(),
             side: SidePage::Inspector,
@@ -281,11 +284,25 @@ impl Lab {
         self.history.commit();
     }
 
-    /// The stepper of the selected curve at its parameter.
+    /// The chosen algorithm on the selected curve at its parameter.
     pub fn scheme(&self) -> Option<Stepper> {
+        self.told_scheme()?.ok()
+    }
+
+    /// As [`Self::scheme`], or a sentence that says why there is none; `None` without a curve.
+    pub fn told_scheme(&self) -> Option<Result<Stepper, String>> {
         let object = self.selection.object?;
         let parameter = self.parameter(object)?;
-        crate::course::de_boor_stepper(self.history.document().curve(object)?, parameter).ok()
+        let curve = self.history.document().curve(object)?;
+        Some(crate::course::stepper::stepper(self.view.stepper, curve, parameter, &self.view.stepper_choices))
+    }
+
+    /// Chooses the algorithm that is told, from its first frame.
+    pub fn set_stepper(&mut self, kind: StepperKind) {
+        if self.view.stepper != kind {
+            self.view.stepper = kind;
+            self.stepper = StepperState { open: self.stepper.open, ..StepperState::default() };
+        }
     }
 
     /// Says something that was done.
@@ -317,7 +334,9 @@ impl Lab {
         {
             self.selection.knot = None;
         }
-        if let Some(stepper) = self.scheme() {
+        if self.stepper.open
+            && let Some(stepper) = self.scheme()
+        {
             self.stepper.frame = self.stepper.frame.min(stepper.frames().len().saturating_sub(1));
         }
     }

@@ -99,7 +99,9 @@ impl Command {
             Self::LookLight => ("Light look", "Dark ink on a light ground"),
             Self::LookDark => ("Dark look", "Light ink on a dark ground"),
             Self::LookPresentation => ("Presentation look", "Large type and thick lines for a projector"),
-            Self::StepperPlay => ("Play the construction", "Play de Boor's algorithm step by step, or pause"),
+            Self::StepperPlay => {
+                ("Play the construction", "Play the chosen algorithm step by step, or pause")
+            }
             Self::StepForward => ("Step forward", "The next step of the algorithm"),
             Self::StepBack => ("Step back", "The step before"),
             Self::NextLesson => ("Next lesson", "Open the next lesson of the course"),

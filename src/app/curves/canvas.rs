@@ -14,7 +14,7 @@ use crate::app::hands;
 use crate::app::lab::{Hovered, Lab, Tool};
 use crate::app::painter::{color32, paint_note, paint_picture, screen_from_world, world_from_screen};
 use crate::document::{Edit, ObjectId};
-use crate::figure::composition::{Composition, GRID, SchemeReveal, compose_with};
+use crate::figure::composition::{Composition, GRID, StepDrawing, compose_with};
 use crate::figure::picture::Viewport;
 
 /// Room around the objects when they are fitted, in pt.
@@ -223,7 +223,7 @@ impl Canvas {
 
     fn paint(&self, lab: &Lab, viewport: &Viewport, rect: Rect, pointer: Option<Pos2>, ui: &Ui) {
         let painter = ui.painter_at(rect);
-        let choices = Composition { reveal: reveal(lab), transparent: false };
+        let choices = Composition { step: step(lab), transparent: false };
         let picture = compose_with(lab.history.document(), &lab.view, &lab.theme, viewport, &choices);
         paint_picture(&picture, viewport, rect, &painter);
         handles::paint(lab, viewport, rect, &painter);
@@ -297,16 +297,13 @@ fn hint(lab: &Lab) -> Option<&'static str> {
     )
 }
 
-/// The part of the scheme that the stepper shows.
-fn reveal(lab: &Lab) -> Option<(ObjectId, SchemeReveal)> {
+/// What the stepper shows.
+fn step(lab: &Lab) -> Option<(ObjectId, StepDrawing)> {
     if !lab.stepper.open {
         return None;
     }
     let (object, stepper) = (lab.selection.object?, lab.scheme()?);
-    let frames = stepper.frames();
-    let frame = frames.get(lab.stepper.frame)?;
-    let shown = frames[..=lab.stepper.frame].iter().flat_map(|frame| frame.reveals.iter().copied()).collect();
-    Some((object, SchemeReveal { shown, highlighted: frame.highlights.iter().copied().collect() }))
+    Some((object, stepper.drawing(lab.stepper.frame)))
 }
 
 fn hover(lab: &mut Lab, target: Target) {
