@@ -59,7 +59,7 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, object: ObjectId, stepper: &Stepp
     let highlighted: BTreeSet<Tie> = frame.highlights.iter().copied().collect();
     let grid = Grid::new(lab, stepper, ui.available_width());
     let turned = has_turned(lab, ui);
-    ScrollArea::horizontal().id_salt("scheme").auto_shrink([false, true]).show(ui, |ui| {
+    let shown = ScrollArea::horizontal().id_salt("scheme").auto_shrink([false, true]).show(ui, |ui| {
         let (rect, _) = ui.allocate_exact_size(grid.size(), Sense::hover());
         let origin = rect.min + vec2(((ui.available_width() - grid.size().x) * 0.5).max(0.0), 1.0);
         for entry in stepper.table() {
@@ -73,13 +73,18 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, object: ObjectId, stepper: &Stepp
             };
             cell(lab, ui, object, stepper, grid.rect(origin, entry.tie()), entry, look, grid.lines);
         }
-        // What a new frame is about comes into sight.
-        if turned && let Some(&tie) = frame.highlights.last() {
-            let middle = frame.highlights[frame.highlights.len() / 2];
-            let tie = if frame.highlights.len() > 3 { middle } else { tie };
-            ui.scroll_to_rect(grid.rect(origin, tie).expand(6.0), None::<Align>);
+        let told = &frame.highlights;
+        let middle = if told.len() > 3 { told.get(told.len() / 2) } else { told.last() };
+        let place = middle.map(|&tie| grid.rect(origin, tie).expand(6.0)).filter(|_| turned);
+        if let Some(place) = place {
+            ui.scroll_to_rect(place, None::<Align>);
         }
+        place
     });
+    // What a new frame is about comes into sight, sideways above, up and down here.
+    if let Some(place) = shown.inner {
+        ui.scroll_to_rect(place, None::<Align>);
+    }
 }
 
 /// Whether another frame is shown than when the table was drawn last.
@@ -206,6 +211,16 @@ fn cell(
     let step = 13.0 * scale;
     for (line, text) in entry.lines.iter().enumerate() {
         let y = rect.bottom() - 3.0 - step * (lines - line) as f32;
-        painter.text(pos2(middle, y), Align2::CENTER_TOP, text, FontId::proportional(11.0 * scale), ink);
+        let text = text.replace('-', "−");
+        let mut galley = painter.layout_no_wrap(text.clone(), FontId::proportional(11.0 * scale), ink);
+        let room = rect.width() - 4.0;
+        if galley.size().x > room {
+            galley = painter.layout_no_wrap(
+                text,
+                FontId::proportional(11.0 * scale * room / galley.size().x),
+                ink,
+            );
+        }
+        painter.galley(pos2(middle - 0.5 * galley.size().x, y), galley, ink);
     }
 }

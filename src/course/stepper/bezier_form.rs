@@ -100,10 +100,10 @@ fn close(teller: &mut Teller, net: &Net, curve: &Nurbs<DVec2>) {
     let n = curve.degree();
     let pieces = net.spline.bezier_pieces();
     let count = pieces.iter().len();
+    let of = if count == 1 { "the only piece".to_owned() } else { format!("one of the {count} pieces") };
     let caption = format!(
-        "All knots are {n}-fold: every {} in a row are the Bézier points of {}, and neighbours share one.",
-        n + 1,
-        counted(count, "piece")
+        "All knots are {n}-fold: {} points in a row are the Bézier points of {of}, and neighbours share one.",
+        n + 1
     );
     teller.tell(
         caption,

@@ -131,7 +131,7 @@ pub(super) fn close_with_tangent(teller: &mut Teller, net: &Net, (from, to): (f6
         formula_point(&tangent.to_array())
     );
     teller.tell(caption, formula, Vec::new(), vec![left.tie(), right.tie(), top.tie()]);
-    let reach = 0.5 * extent(&net.polygon(&net.spline));
+    let reach = 0.25 * extent(&net.polygon(&net.spline));
     teller.draw_tangent(place(&top), tangent, reach);
     teller.tangent = Some(tangent);
 }

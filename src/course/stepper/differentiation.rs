@@ -17,7 +17,7 @@ use crate::course::stepper::{Entry, Stepper, StepperKind, Tie};
 use crate::figure::composition::StepInk;
 
 /// The longest difference is drawn so long, as a part of the extent of the curve.
-const REACH: f64 = 0.5;
+const REACH: f64 = 0.3;
 
 pub(super) fn story(curve: &Nurbs<DVec2>, t: f64) -> Result<Stepper, String> {
     let net = Net::of(curve).map_err(|error| sentence(&error))?;

@@ -81,7 +81,7 @@ impl StepDrawing {
     /// Adds the line from `from` to `to` with a head of two strokes at `to`.
     #[must_use]
     pub fn arrow(self, from: DVec2, to: DVec2, ink: StepInk, width: f64) -> Self {
-        let back = (from - to) * 0.12;
+        let back = (from - to) * 0.08;
         let (left, right) = (back + back.perp() * 0.45, back - back.perp() * 0.45);
         self.line(vec![from, to], ink, width).line(vec![to + left, to, to + right], ink, width)
     }
@@ -129,11 +129,12 @@ impl StepDrawing {
             if let Some(text) = &dot.label {
                 items.push(Item::Label(Label {
                     at: dot.at,
-                    offset: DVec2::new(10.0, 8.0),
+                    // The name of the parameter stands on the upper right of its point.
+                    offset: DVec2::new(-10.0, -14.0),
                     text: text.clone(),
                     size: 13.0 * theme.text_scale,
                     color: theme.text,
-                    anchor: Anchor::Start,
+                    anchor: Anchor::End,
                     math: true,
                 }));
             }
