@@ -48,6 +48,23 @@ impl StepperKind {
         Self::Blossom,
     ];
 
+    /// The name in files.
+    pub const fn key(self) -> &'static str {
+        match self {
+            Self::DeCasteljau => "de-casteljau",
+            Self::BezierSubdivision => "bezier-subdivision",
+            Self::RationalDeCasteljau => "rational-de-casteljau",
+            Self::Recurrence => "recurrence",
+            Self::Differentiation => "differentiation",
+            Self::DeBoor => "de-boor",
+            Self::KnotInsertion => "knot-insertion",
+            Self::UniformSubdivision => "uniform-subdivision",
+            Self::Intersection => "intersection",
+            Self::BezierForm => "bezier-form",
+            Self::Blossom => "blossom",
+        }
+    }
+
     /// The name people know it by.
     pub const fn name(self) -> &'static str {
         match self {

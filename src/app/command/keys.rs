@@ -17,6 +17,7 @@ impl Command {
             Self::Save => (COMMAND, Key::S),
             Self::SaveAs => (COMMAND_SHIFT, Key::S),
             Self::ExportFigure => (COMMAND, Key::E),
+            Self::ExportFrames => (COMMAND_SHIFT, Key::E),
             Self::Quit => (COMMAND, Key::Q),
             Self::Undo => (COMMAND, Key::Z),
             Self::Redo => (COMMAND_SHIFT, Key::Z),

@@ -79,6 +79,7 @@ impl Command {
             | Self::ToggleHull
             | Self::ToggleCircle
             | Self::ToggleKnotLine
+            | Self::ExportFrames
             | Self::StepperPlay
             | Self::StepForward
             | Self::StepBack => Some(Room::Curves),
@@ -95,6 +96,7 @@ impl Command {
             | Self::Save
             | Self::SaveAs
             | Self::ExportFigure
+            | Self::ExportFrames
             | Self::ImportMesh
             | Self::ExportMesh
             | Self::ImportData

@@ -19,6 +19,8 @@ pub enum Command {
     SaveAs,
     /// Writes a figure of the canvas.
     ExportFigure,
+    /// Writes all frames of the algorithm that is stepped through.
+    ExportFrames,
     /// Adds the mesh of an OBJ file.
     ImportMesh,
     /// Writes the selected mesh at the level shown.
@@ -173,12 +175,13 @@ pub enum Command {
 
 impl Command {
     /// All commands, in the order of menus, palette and sheet.
-    pub const ALL: [Self; 80] = [
+    pub const ALL: [Self; 81] = [
         Self::New,
         Self::Open,
         Self::Save,
         Self::SaveAs,
         Self::ExportFigure,
+        Self::ExportFrames,
         Self::ImportMesh,
         Self::ExportMesh,
         Self::ImportData,

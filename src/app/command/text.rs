@@ -11,6 +11,10 @@ impl Command {
             Self::Save => ("Save", "Save the document"),
             Self::SaveAs => ("Save as…", "Save under another name"),
             Self::ExportFigure => ("Export figure…", "Write what the canvas shows as SVG, PDF or PNG"),
+            Self::ExportFrames => (
+                "Export frames…",
+                "Write every step of the algorithm: numbered SVG or PNG, one PDF, or a TikZ slide with overlays",
+            ),
             Self::ImportData => {
                 ("Import data…", "Read a table of x and y, with weights if wanted, from a CSV file")
             }
