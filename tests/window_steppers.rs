@@ -33,6 +33,7 @@ fn window(curve: Nurbs<DVec2>) -> Window {
     *lab = Lab { at_once: true, ..Lab::new(document, View::default()) };
     harness.run_steps(6);
     click(&mut harness, "Stepper");
+    key(&mut harness, Key::F);
     harness
 }
 
@@ -213,4 +214,67 @@ fn playing_starts_and_stops_with_enter() {
     window.key_press_modifiers(Modifiers::NONE, Key::Enter);
     window.run_steps(2);
     assert!(lab(&window).stepper.playing && lab(&window).stepper.frame == 0, "and begins again");
+}
+
+fn drag(window: &mut Window, label: &str, by: eframe::egui::Vec2) {
+    let from = place(window, label);
+    window.hover_at(from);
+    window.step();
+    window.drag_at(from);
+    window.step();
+    for part in 1..=4 {
+        window.hover_at(from + by * (part as f32 / 4.0));
+        window.step();
+    }
+    window.drop_at(from + by);
+    window.run_steps(3);
+}
+
+#[test]
+fn the_line_is_moved_and_turned_on_the_canvas_and_the_curve_stays() {
+    let mut window = window(plain());
+    choose(&mut window, StepperKind::Intersection);
+    let before = lab(&window).curve().unwrap().clone();
+    let scale = lab(&window).view.camera.scale;
+    let line = spline_lab::course::stepper::default_line(&before);
+    drag(&mut window, "Point of the line", vec2(0.0, -60.0));
+    let moved = lab(&window).view.stepper_choices.line.unwrap();
+    let expected = line.through + DVec2::Y * (60.0 / scale);
+    assert!(moved.through.distance(expected) < 1.5 / scale, "{} instead of {expected}", moved.through);
+    assert_eq!(moved.angle, 0.0, "the direction stays");
+    drag(&mut window, "Direction of the line", vec2(-110.0, -110.0));
+    let turned = lab(&window).view.stepper_choices.line.unwrap();
+    assert!((turned.angle - 90.0).abs() < 1.0, "upright: {}°", turned.angle);
+    assert_eq!(turned.through, moved.through, "the point stays");
+    assert_eq!(lab(&window).curve().unwrap(), &before, "no point of the curve has moved");
+    assert_eq!(lab(&window).history.steps(), (0, 0), "no step of undo");
+}
+
+#[test]
+fn a_point_of_the_construction_under_the_pointer_lights_up_its_entry() {
+    let mut window = window(plain());
+    choose(&mut window, StepperKind::KnotInsertion);
+    key(&mut window, Key::CloseBracket);
+    let entry = lab(&window).scheme().unwrap().levels()[1][0].clone();
+    let first = (DVec2::new(0.0, 0.0), place(&window, "Control point 0 of T"));
+    let scale = lab(&window).view.camera.scale;
+    let shift = (entry.at.unwrap() - first.0) * scale;
+    window.hover_at(first.1 + vec2(shift.x as f32, -shift.y as f32));
+    window.run_steps(3);
+    let object = lab(&window).selection.object.unwrap();
+    assert_eq!(lab(&window).hovered, Hovered::Entry(object, 1, 0), "the new point");
+    assert_eq!(lab(&window).entry_partners, entry.partners, "and its two control points");
+}
+
+#[test]
+fn frames_are_exported_from_the_file_menu() {
+    let mut window = window(plain());
+    choose(&mut window, StepperKind::KnotInsertion);
+    click(&mut window, "File");
+    let listed = window.query_all_by_label_contains("Export frames…").count();
+    assert_eq!(listed, 2, "in the menu, and under the table");
+    key(&mut window, Key::Escape);
+    window.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::E);
+    window.run_steps(4);
+    assert!(window.query_by_label_contains("Export all frames").is_some(), "its shortcut asks for a file");
 }

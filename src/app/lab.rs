@@ -3,11 +3,13 @@
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
+use std::rc::Rc;
 
 use glam::DVec2;
 
 use crate::app::command::Command;
 use crate::app::sheet::{Sheet, Shelf};
+use crate::app::story_cache::StoryCache;
 use crate::app::workspace::Room;
 use crate::core::spline_curve::Nurbs;
 use crate::course::{Lesson, Stepper, Verdict};
@@ -150,6 +152,8 @@ pub struct Lab {
     pub commands: Vec<Command>,
     /// Size of the canvas in points in the last frame.
     pub canvas_size: DVec2,
+    /// The last story of the stepper.
+    pub story_cache: StoryCache,
     /// Whether long work is done within the frame instead of beside it: for tests, which then need not wait.
     pub at_once: bool,
 }
@@ -177,6 +181,7 @@ impl Lab {
             messages: Vec::new(),
             commands: Vec::new(),
             canvas_size: DVec2::new(800.0, 600.0),
+            story_cache: StoryCache::default(),
             at_once: false,
         }
     }
@@ -285,16 +290,16 @@ impl Lab {
     }
 
     /// The chosen algorithm on the selected curve at its parameter.
-    pub fn scheme(&self) -> Option<Stepper> {
+    pub fn scheme(&self) -> Option<Rc<Stepper>> {
         self.told_scheme()?.ok()
     }
 
     /// As [`Self::scheme`], or a sentence that says why there is none; `None` without a curve.
-    pub fn told_scheme(&self) -> Option<Result<Stepper, String>> {
+    pub fn told_scheme(&self) -> Option<Result<Rc<Stepper>, String>> {
         let object = self.selection.object?;
         let parameter = self.parameter(object)?;
-        let curve = self.history.document().curve(object)?;
-        Some(crate::course::stepper::stepper(self.view.stepper, curve, parameter, &self.view.stepper_choices))
+        let object = self.history.document().object(object)?;
+        self.story_cache.told(object, self.view.stepper, parameter, &self.view.stepper_choices)
     }
 
     /// Chooses the algorithm that is told, from its first frame.

@@ -110,9 +110,11 @@ impl StepperLine {
     /// The unit vector along the line.
     pub fn direction(&self) -> DVec2 {
         // The sine of π is not quite zero; lines along the axes are to be exact.
-        match self.angle.rem_euclid(180.0) {
+        match self.angle.rem_euclid(360.0) {
             0.0 => DVec2::X,
             90.0 => DVec2::Y,
+            180.0 => DVec2::NEG_X,
+            270.0 => DVec2::NEG_Y,
             angle => DVec2::from_angle(angle.to_radians()),
         }
     }

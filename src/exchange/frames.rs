@@ -147,7 +147,8 @@ pub fn frame_pages(
     };
     let pages = texts.iter().enumerate().map(|(index, text)| {
         let choices = Composition { step: Some((object, story.drawing(index))), transparent: false };
-        let mut picture = compose_with(document, view, theme, &page, &choices);
+        // The scale of the axes stands at the edge of the picture, not of the page.
+        let mut picture = compose_with(document, view, theme, viewport, &choices);
         let number = format!("{} / {}", index + 1, frames.len());
         picture.push_layer("ground of the text", ground(&page, viewport.size.y, theme));
         picture.push_layer("text", text.items(&page, viewport.size.y, &number, theme));

@@ -5,11 +5,13 @@ mod table;
 
 use eframe::egui::{RichText, ScrollArea, Slider, Ui};
 
+use crate::app::command::Command;
 use crate::app::formula_view;
 use crate::app::icon::{self, Icon};
 use crate::app::lab::Lab;
 use crate::app::number_field::{Drag, NumberEvent, NumberField};
 use crate::app::painter::color32;
+use crate::app::toolbar;
 use crate::document::ObjectId;
 
 /// Seconds that a frame stays while playing at speed 1.
@@ -38,19 +40,19 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
     };
     let last = stepper.frames().len().saturating_sub(1);
     lab.stepper.frame = lab.stepper.frame.min(last);
+    ui.add_space(2.0);
+    controls(lab, ui, object, last);
+    play(lab, ui, last);
+    let Some(frame) = stepper.frames().get(lab.stepper.frame) else { return };
+    ui.add_space(2.0);
+    // A fixed height keeps the table from jumping between captions of one and of three lines.
+    let top = ui.cursor().top();
+    formula_view::rich_paragraph(ui, &frame.caption);
+    formula_view::formula(ui, &frame.formula, 15.0 * lab.theme.text_scale as f32);
+    let used = ui.cursor().top() - top;
+    ui.add_space((92.0 - used).max(0.0));
+    ui.separator();
     ScrollArea::vertical().id_salt("stepper").auto_shrink([false, false]).show(ui, |ui| {
-        ui.add_space(2.0);
-        controls(lab, ui, object, last);
-        play(lab, ui, last);
-        let Some(frame) = stepper.frames().get(lab.stepper.frame) else { return };
-        ui.add_space(2.0);
-        // A fixed height keeps the table from jumping between captions of one and of three lines.
-        let top = ui.cursor().top();
-        formula_view::rich_paragraph(ui, &frame.caption);
-        formula_view::formula(ui, &frame.formula, 15.0 * lab.theme.text_scale as f32);
-        let used = ui.cursor().top() - top;
-        ui.add_space((92.0 - used).max(0.0));
-        ui.separator();
         table::show(lab, ui, object, &stepper);
         if let Some(note) = stepper.note() {
             ui.add_space(4.0);
@@ -61,6 +63,8 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
             let text = "The numbers on the lines are the factors of the entries above.";
             ui.label(RichText::new(text).weak().small());
         }
+        ui.add_space(4.0);
+        toolbar::button("Export frames…", Command::ExportFrames, lab, ui);
     });
 }
 

@@ -57,6 +57,11 @@ impl Part {
     }
 }
 
+/// Distances with three digits: their sign matters, and cells are narrow.
+fn rough(distance: f64) -> f64 {
+    format!("{distance:.2e}").parse().unwrap_or(distance)
+}
+
 /// The signed distance times the weight.
 fn side(line: &Hyperplane<DVec2>, point: DVec3) -> f64 {
     line.normal().dot(point.truncate()) - line.offset() * point.z
@@ -76,7 +81,7 @@ pub(super) fn story(curve: &Nurbs<DVec2>, t: f64, chosen: Option<StepperLine>) -
     let control = |k: usize| {
         let entry = net.control_point(k);
         let away = side(&line, net.spline.coefficients()[k]) / entry.weight.unwrap_or(1.0);
-        Entry { lines: vec![format!("d {}", short_number(away))], ..entry }
+        Entry { lines: vec![format!("d {}", short_number(rough(away)))], ..entry }
     };
     let ties = teller.row((0..curve.points().len()).map(control).collect());
     let mut polygon: Vec<DVec3> = net.spline.coefficients().to_vec();
@@ -136,7 +141,7 @@ fn follow(
         for (letter, value) in [('a', a), ('m', middle), ('b', b)] {
             let at = curve.evaluate(value).map_err(|error| sentence(&error))?;
             let entry = Entry::numbers(Name::new(letter, step, None), &[value]);
-            let lines = vec![short_number(value), format!("d {}", short_number(line.side(at)))];
+            let lines = vec![short_number(value), format!("d {}", short_number(rough(line.side(at))))];
             entries.push(Entry { at: Some(at), lines, ..entry });
         }
         let middle_side = line.side(entries[1].at.unwrap_or(DVec2::ZERO));
