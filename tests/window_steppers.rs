@@ -278,3 +278,19 @@ fn frames_are_exported_from_the_file_menu() {
     window.run_steps(4);
     assert!(window.query_by_label_contains("Export all frames").is_some(), "its shortcut asks for a file");
 }
+
+#[test]
+fn algorithms_are_turned_with_keys_around_the_list() {
+    let mut window = window(plain());
+    window.key_press_modifiers(Modifiers::COMMAND, Key::CloseBracket);
+    window.run_steps(3);
+    assert_eq!(lab(&window).view.stepper, StepperKind::KnotInsertion, "after de Boor");
+    for _ in 0..6 {
+        window.key_press_modifiers(Modifiers::COMMAND, Key::OpenBracket);
+        window.run_steps(3);
+    }
+    assert_eq!(lab(&window).view.stepper, StepperKind::DeCasteljau, "the first");
+    window.key_press_modifiers(Modifiers::COMMAND, Key::OpenBracket);
+    window.run_steps(3);
+    assert_eq!(lab(&window).view.stepper, StepperKind::Blossom, "and around to the last");
+}

@@ -75,7 +75,9 @@ pub(crate) fn is_possible(command: Command, lab: &Lab) -> bool {
         | Command::ToggleCircle
         | Command::StepperPlay
         | Command::StepForward
-        | Command::StepBack => lab.curve().is_some(),
+        | Command::StepBack
+        | Command::NextAlgorithm
+        | Command::PreviousAlgorithm => lab.curve().is_some(),
         _ => true,
     }
 }

@@ -74,6 +74,8 @@ impl Command {
             Self::StepperPlay => (NONE, Key::Enter),
             Self::StepForward => (NONE, Key::CloseBracket),
             Self::StepBack => (NONE, Key::OpenBracket),
+            Self::NextAlgorithm => (COMMAND, Key::CloseBracket),
+            Self::PreviousAlgorithm => (COMMAND, Key::OpenBracket),
             Self::NextLesson => (NONE, Key::PageDown),
             Self::PreviousLesson => (NONE, Key::PageUp),
             Self::Palette => (COMMAND, Key::P),

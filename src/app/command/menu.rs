@@ -82,7 +82,9 @@ impl Command {
             | Self::ExportFrames
             | Self::StepperPlay
             | Self::StepForward
-            | Self::StepBack => Some(Room::Curves),
+            | Self::StepBack
+            | Self::NextAlgorithm
+            | Self::PreviousAlgorithm => Some(Room::Curves),
             Self::ExportMesh => Some(Room::Surfaces),
             _ => self.menu().room(),
         }
@@ -148,6 +150,8 @@ impl Command {
             Self::StepperPlay
             | Self::StepForward
             | Self::StepBack
+            | Self::NextAlgorithm
+            | Self::PreviousAlgorithm
             | Self::NextLesson
             | Self::PreviousLesson => Menu::Lesson,
             Self::Palette | Self::ShortcutSheet => Menu::Help,

@@ -157,6 +157,10 @@ pub enum Command {
     LookDark,
     /// Look for a projector.
     LookPresentation,
+    /// The next algorithm of the stepper.
+    NextAlgorithm,
+    /// The algorithm before.
+    PreviousAlgorithm,
     /// Plays the construction step by step, or stops.
     StepperPlay,
     /// One step on.
@@ -175,7 +179,7 @@ pub enum Command {
 
 impl Command {
     /// All commands, in the order of menus, palette and sheet.
-    pub const ALL: [Self; 81] = [
+    pub const ALL: [Self; 83] = [
         Self::New,
         Self::Open,
         Self::Save,
@@ -253,6 +257,8 @@ impl Command {
         Self::StepperPlay,
         Self::StepForward,
         Self::StepBack,
+        Self::NextAlgorithm,
+        Self::PreviousAlgorithm,
         Self::NextLesson,
         Self::PreviousLesson,
         Self::Palette,

@@ -108,6 +108,8 @@ impl Command {
             }
             Self::StepForward => ("Step forward", "The next step of the algorithm"),
             Self::StepBack => ("Step back", "The step before"),
+            Self::NextAlgorithm => ("Next algorithm", "Step through the next algorithm of the course"),
+            Self::PreviousAlgorithm => ("Previous algorithm", "Step through the algorithm before"),
             Self::NextLesson => ("Next lesson", "Open the next lesson of the course"),
             Self::PreviousLesson => ("Previous lesson", "Open the lesson before"),
             Self::Palette => ("Find a command…", "Type a few letters of what you want to do"),

@@ -24,12 +24,14 @@ pub(super) fn story(curve: &Nurbs<DVec2>, t: f64) -> Result<Stepper, String> {
     if count > MOST_POINTS {
         return Err(format!("The curve has {count} control points; the table has room for {MOST_POINTS}."));
     }
+    // Knots of a closed curve are named as they stand in its period.
+    let named = |knot: f64| short_number(curve.space().reduce(knot).unwrap_or(knot));
     let refined = net.spline.subdivide_uniform().map_err(|error| match error {
-        SplineError::KnotsNotUniform { index, value, expected } => format!(
-            "The knots are not equally spaced: knot {index} is {} instead of {}. Uniform subdivision needs equal distances, at \
-             the ends too.",
-            short_number(value),
-            short_number(expected)
+        SplineError::KnotsNotUniform { value, expected, .. } => format!(
+            "The knots are not equally spaced: there is one at {} instead of {}. Uniform subdivision needs equal distances{}.",
+            named(value),
+            named(expected),
+            if closed { "" } else { ", of the outer knots too" }
         ),
         other => sentence(&other),
     })?;
@@ -138,6 +140,9 @@ mod tests {
     #[test]
     fn unequal_knots_are_refused_with_the_first_of_them() {
         let refused = story(&bezier(), 0.5).unwrap_err();
-        assert!(refused.contains("knot ") && refused.contains("not equally spaced"), "{refused}");
+        assert!(
+            refused.contains("one at 0 instead of") && refused.contains("not equally spaced"),
+            "{refused}"
+        );
     }
 }
