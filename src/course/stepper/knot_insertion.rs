@@ -55,13 +55,17 @@ pub(super) fn story(curve: &Nurbs<DVec2>, t: f64) -> Result<Stepper, String> {
         teller.tell_mixture((1, position), &Shares::Fraction { at: t, low: knots[k], high: knots[k + n] });
     }
     let new: Vec<Tie> = teller.levels[1].iter().map(Entry::tie).collect();
-    let replaced = n - present - 1;
-    let count = refined.coefficients().len();
-    let caption = format!(
-        "The new points take the place of the {} between them: {} over one knot more, and the curve is the same.",
-        counted(replaced, "point"),
-        counted(count, "control point")
-    );
+    let count = counted(refined.coefficients().len(), "control point");
+    let caption = if refined.coefficients().len() == curve.points().len() {
+        format!(
+            "At an end of the curve the outermost point and knot are dropped: {count} as before, and the curve is the same."
+        )
+    } else {
+        let replaced = counted(n - present - 1, "point");
+        format!(
+            "The new points take the place of the {replaced} between them: {count} over one knot more, and the curve is the same."
+        )
+    };
     let names: Vec<&str> = teller.levels[1].iter().map(|entry| entry.label.as_str()).collect();
     teller.tell(caption, names.join(",\\; "), Vec::new(), new);
     let polygon = net.polygon(&refined);

@@ -44,7 +44,9 @@ pub(super) fn story(curve: &Nurbs<DVec2>, t: f64) -> Result<Stepper, String> {
     }
     let (place, formula) = place_in_interval(t, knots[span], knots[span + 1]);
     let name = teller.levels[0][0].plain_label.clone();
-    let caption = format!("{place} Of degree 0 only {name} is not zero there, and it is 1.");
+    let caption = format!(
+        "{place} Of degree 0 only {name} is not zero there, and it is 1. The size of a disc shows a value."
+    );
     teller.tell(caption, formula, vec![(0, 0)], vec![(0, 0)]);
     for j in 1..=n {
         for position in 0..=j {

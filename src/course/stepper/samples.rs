@@ -69,10 +69,10 @@ pub(super) fn uniform_closed(degree: usize, count: usize) -> Nurbs<DVec2> {
     Nurbs::polynomial(space, points(count)).unwrap()
 }
 
-/// Open, closed and Bezier curves of the degrees 1 to 12 without weights.
+/// Open, closed and Bezier curves of degrees up to 12 without weights.
 pub(super) fn polynomial_curves() -> Vec<Nurbs<DVec2>> {
     let mut curves = vec![bezier()];
-    for degree in 1..=12 {
+    for degree in [1, 2, 3, 4, 6, 9, 12] {
         curves.push(Nurbs::polynomial(open(degree, degree + 5), points(degree + 5)).unwrap());
         curves.push(closed(degree, 5, false));
         curves.push(Nurbs::polynomial(bezier_space(degree), points(degree + 1)).unwrap());
