@@ -64,6 +64,9 @@ enum Job {
         /// The algorithm of the frames; that of the document by default
         #[arg(long, value_name = "NAME", requires = "frames", value_parser = algorithm)]
         algorithm: Option<StepperKind>,
+        /// The parameter of the frames; that of the document by default
+        #[arg(long, value_name = "T", requires = "frames", allow_negative_numbers = true)]
+        at: Option<f64>,
     },
     /// Writes a document in another format: .spline, or .svg with the document inside
     Convert {
@@ -103,8 +106,8 @@ pub fn run() -> ExitCode {
     let arguments = Arguments::parse();
     let done = match arguments.job {
         None => open_window(arguments.file),
-        Some(Job::Figure { file, output, width, height, theme, scale, frames: true, algorithm }) => {
-            write_all_frames(&file, &output, (width, height), &theme.theme(), scale, algorithm)
+        Some(Job::Figure { file, output, width, height, theme, scale, frames: true, algorithm, at }) => {
+            write_all_frames(&file, &output, (width, height), &theme.theme(), scale, (algorithm, at))
         }
         Some(Job::Figure { file, output, width, height, theme, scale, .. }) => {
             write_figure(&file, &output, width, height, &theme.theme(), scale)
@@ -188,10 +191,19 @@ fn write_all_frames(
     (width, height): (f64, Option<f64>),
     theme: &Theme,
     scale: f64,
-    algorithm: Option<StepperKind>,
+    (algorithm, at): (Option<StepperKind>, Option<f64>),
 ) -> Result<(), String> {
     let mut saved = read_document(file).map_err(|error| error.to_string())?;
     saved.view.stepper = algorithm.unwrap_or(saved.view.stepper);
+    if let Some(at) = at {
+        let (object, curve) =
+            frames::curve_of_frames(&saved.document, &saved.view).map_err(|error| error.to_string())?;
+        let (left, right) = curve.space().parameter_interval();
+        if !(left..=right).contains(&at) {
+            return Err(format!("{at} lies outside [{left}, {right}], the interval of {}", object.name));
+        }
+        saved.view.parameters.insert(object.id, at);
+    }
     let viewport = paper(&saved.document, width, height)?;
     let written =
         frames::write_frames(output, &saved.document, &saved.view, theme, &viewport, scale, &Unwatched)

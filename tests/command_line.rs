@@ -89,6 +89,9 @@ fn frames_are_numbered_files_pages_or_overlays() {
     assert!(frames("steps.tex", "blossom").status.success(), "a slide");
     let slide = fs::read_to_string(folder.path().join("steps.tex")).expect("the slide");
     assert!(slide.contains("\\only<1-1>") && slide.contains("\\begin{frame}"), "overlays");
+    let outside =
+        run(folder.path(), &["figure", "scene.spline", "--frames", "--at", "-7", "-o", "steps.svg"]);
+    assert!(text(&outside.stderr).contains("-7 lies outside"), "{}", text(&outside.stderr));
     let refused = frames("steps.svg", "rational-de-casteljau");
     assert!(text(&refused.stderr).contains("weights are equal"), "{}", text(&refused.stderr));
     let unknown = frames("steps.svg", "de-moivre");

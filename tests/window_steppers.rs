@@ -114,7 +114,8 @@ fn weights_have_their_own_algorithm_and_the_other_says_so() {
         window.query_by_label_contains("choose the rational algorithm").is_some(),
         "and the panel says why"
     );
-    choose(&mut window, StepperKind::RationalDeCasteljau);
+    click(&mut window, "Choose Rational de Casteljau");
+    assert_eq!(lab(&window).view.stepper, StepperKind::RationalDeCasteljau, "one click away");
     let last = frames(&window) - 1;
     for _ in 0..last {
         key(&mut window, Key::CloseBracket);
@@ -293,4 +294,21 @@ fn algorithms_are_turned_with_keys_around_the_list() {
     window.key_press_modifiers(Modifiers::COMMAND, Key::OpenBracket);
     window.run_steps(3);
     assert_eq!(lab(&window).view.stepper, StepperKind::Blossom, "and around to the last");
+}
+
+#[test]
+fn the_knot_that_is_looked_at_is_inserted_and_undone() {
+    let mut window = window(plain());
+    choose(&mut window, StepperKind::KnotInsertion);
+    let before = lab(&window).curve().unwrap().clone();
+    let told = lab(&window).scheme().unwrap();
+    click(&mut window, "Insert the knot");
+    let after = lab(&window).curve().unwrap();
+    assert_eq!(after, &before.insert_knot(told.parameter()).unwrap(), "the curve that the last frame shows");
+    for entry in &told.levels()[1] {
+        assert!(after.points().contains(&entry.at.unwrap()), "{} is a control point now", entry.plain_label);
+    }
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    window.run_steps(3);
+    assert_eq!(lab(&window).curve().unwrap(), &before, "undone");
 }

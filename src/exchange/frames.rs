@@ -8,8 +8,9 @@ use glam::DVec2;
 use thiserror::Error;
 
 use crate::core::progress::{Stopped, Watcher};
+use crate::core::spline_curve::Nurbs;
 use crate::course::stepper::{Frame, Stepper, stepper};
-use crate::document::{self, Content, Document, Object, ObjectId, StepperKind, View};
+use crate::document::{self, Document, Object, ObjectId, View};
 use crate::exchange::by_ending::{ByEndingError, ending_of, unknown_ending, write_file};
 use crate::exchange::pdf::write_pdf_pages;
 use crate::exchange::png::write_png;
@@ -157,18 +158,34 @@ pub fn frame_pages(
     Ok(pages.collect())
 }
 
+/// The curve that is stepped through: the selected one, or else the first that is visible.
+///
+/// # Errors
+///
+/// [`FramesError::NoCurve`].
+pub fn curve_of_frames<'a>(
+    document: &'a Document,
+    view: &View,
+) -> Result<(&'a Object, &'a Nurbs<DVec2>), FramesError> {
+    let mut curves = document.objects().iter().filter(|object| object.visible).filter_map(|object| {
+        let curve = object.curve()?;
+        Some((&**object, curve))
+    });
+    let first = curves.next().ok_or(FramesError::NoCurve)?;
+    let is_selected = |object: &Object| Some(object.id) == view.selected_object;
+    Ok(if is_selected(first.0) {
+        first
+    } else {
+        curves.find(|(object, _)| is_selected(object)).unwrap_or(first)
+    })
+}
+
 fn story(document: &Document, view: &View) -> Result<(ObjectId, Stepper), FramesError> {
-    let is_curve = |object: &Object| object.visible && object.curve().is_some();
-    let selected =
-        document.objects().iter().find(|object| Some(object.id) == view.selected_object && is_curve(object));
-    let first = || document.objects().iter().find(|object| is_curve(object));
-    let object = selected.or_else(first).ok_or(FramesError::NoCurve)?;
-    let Content::Curve { curve, .. } = &object.content else { return Err(FramesError::NoCurve) };
+    let (object, curve) = curve_of_frames(document, view)?;
     let t = parameter_of(curve, view.parameters.get(&object.id).copied());
     let told = stepper(view.stepper, curve, t, &view.stepper_choices);
-    let kind: StepperKind = view.stepper;
     told.map(|story| (object.id, story)).map_err(|reason| FramesError::DoesNotApply {
-        kind: kind.name(),
+        kind: view.stepper.name(),
         curve: object.name.clone(),
         reason,
     })
@@ -260,7 +277,7 @@ fn broken(text: &str, room: f64, size: f64) -> Vec<String> {
 mod tests {
     use super::*;
     use crate::core::progress::Unwatched;
-    use crate::document::first_scene;
+    use crate::document::{StepperKind, first_scene};
 
     fn viewport() -> Viewport {
         Viewport { center: DVec2::new(3.0, 1.0), scale: 40.0, size: DVec2::new(400.0, 260.0) }

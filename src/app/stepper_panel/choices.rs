@@ -3,9 +3,11 @@
 use eframe::egui::{ComboBox, RichText, Ui};
 use glam::DVec2;
 
+use crate::app::command::Command;
 use crate::app::lab::Lab;
 use crate::app::number_field::{Drag, NumberEvent, NumberField};
 use crate::app::text_field::TextField;
+use crate::app::toolbar;
 use crate::core::spline_curve::Nurbs;
 use crate::course::number_text::parse_number;
 use crate::course::stepper::default_line;
@@ -29,11 +31,24 @@ pub(super) fn algorithm(lab: &mut Lab, ui: &mut Ui) {
     lab.set_stepper(kind);
 }
 
-/// The line of the intersection, the arguments of the blossom.
+/// The algorithm that does for this curve what the chosen one does for others.
+pub(super) fn instead(lab: &mut Lab, ui: &mut Ui, curve: &Nurbs<DVec2>) {
+    let other = match (lab.view.stepper, curve.is_polynomial()) {
+        (StepperKind::DeCasteljau, false) => StepperKind::RationalDeCasteljau,
+        (StepperKind::RationalDeCasteljau, true) => StepperKind::DeCasteljau,
+        _ => return,
+    };
+    if ui.button(format!("Choose {}", other.name())).clicked() {
+        lab.set_stepper(other);
+    }
+}
+
+/// The line of the intersection, the arguments of the blossom, the knot to insert.
 pub(super) fn more(lab: &mut Lab, ui: &mut Ui, curve: &Nurbs<DVec2>) {
     match lab.view.stepper {
         StepperKind::Intersection => line(lab, ui, curve),
         StepperKind::Blossom => arguments(lab, ui, curve.degree()),
+        StepperKind::KnotInsertion => toolbar::button("Insert the knot", Command::InsertKnot, lab, ui),
         _ => {}
     }
 }

@@ -34,6 +34,7 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
             if let Some(Err(reason)) = told {
                 formula_view::rich_paragraph(ui, &reason);
             }
+            choices::instead(lab, ui, &curve);
             parameter(lab, ui, object);
             return;
         }

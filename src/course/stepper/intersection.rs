@@ -171,8 +171,9 @@ fn follow(
                 if takes_first { "left" } else { "right" }
             ),
         };
+        let how = if step == 1 { ", as if this knot were inserted until it is full" } else { "" };
         let caption = format!(
-            "Over [{}, {}] the Bézier polygon changes its side {}. It is halved at {}. {rest}",
+            "Over [{}, {}] the Bézier polygon changes its side {}. It is halved at {}{how}. {rest}",
             short_number(a),
             short_number(b),
             times(changes),

@@ -189,3 +189,53 @@ fn ink_color(ink: StepInk, display: &CurveDisplay, theme: &Theme) -> Color {
         StepInk::Line => theme.text.with_opacity(0.7),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::core::bspline::SplineSpace;
+
+    fn curve() -> Nurbs<DVec2> {
+        let space = SplineSpace::new(2, vec![0.0, 1.0, 2.0, 3.0, 4.0, 5.0]).unwrap();
+        Nurbs::polynomial(space, vec![DVec2::ZERO, DVec2::X, DVec2::ONE]).unwrap()
+    }
+
+    #[test]
+    fn de_boors_construction_ends_at_the_point_of_the_curve() {
+        let items = construction_items(&curve(), 2.4, &CurveDisplay::default(), &Theme::light());
+        let markers: Vec<DVec2> = items
+            .iter()
+            .filter_map(|item| match item {
+                Item::Marker(marker) => Some(marker.at),
+                _ => None,
+            })
+            .collect();
+        assert_eq!(markers.len(), 3, "two points of level 1, one of level 2");
+        assert!(markers[2].distance(curve().evaluate(2.4).unwrap()) < 1e-14, "{}", markers[2]);
+        assert_eq!(items.len() - markers.len(), 2, "the polygons of the levels 0 and 1");
+    }
+
+    #[test]
+    fn places_that_are_not_numbers_are_left_out_and_rings_and_names_are_drawn() {
+        let ring = StepDot {
+            at: DVec2::X,
+            ink: StepInk::Result,
+            size: 0.0,
+            ring: true,
+            label: Some("p_0^1".to_owned()),
+        };
+        let mut drawing = StepDrawing::default()
+            .line(vec![DVec2::ZERO, DVec2::NAN], StepInk::First, 1.0)
+            .dot(DVec2::INFINITY, StepInk::Muted, 5.0, None)
+            .arrow(DVec2::ZERO, DVec2::X, StepInk::Second, 1.0);
+        drawing.dots.push(ring);
+        let items = drawing.items(&CurveDisplay::default(), &Theme::light());
+        let kinds = items.iter().map(|item| match item {
+            Item::Path(_) => "path",
+            Item::Marker(_) => "marker",
+            Item::Label(_) => "label",
+            _ => "other",
+        });
+        assert_eq!(kinds.collect::<Vec<_>>(), ["path", "path", "marker", "label"], "shaft, head, ring, name");
+    }
+}
