@@ -43,6 +43,7 @@ pub(crate) fn is_possible(command: Command, lab: &Lab) -> bool {
     match command {
         Command::Undo => lab.history.undo_name().is_some(),
         Command::Redo => lab.history.redo_name().is_some(),
+        Command::ExportFrames => lab.curve().is_some(),
         Command::ExportFigure => !lab.history.document().is_empty(),
         Command::Delete | Command::Duplicate => lab.selection.object.is_some(),
         Command::RemoveKnot => lab.curve().is_some() && lab.selection.knot.is_some(),
@@ -85,7 +86,9 @@ pub(crate) fn is_possible(command: Command, lab: &Lab) -> bool {
         | Command::ToggleCircle
         | Command::StepperPlay
         | Command::StepForward
-        | Command::StepBack => lab.curve().is_some(),
+        | Command::StepBack
+        | Command::NextAlgorithm
+        | Command::PreviousAlgorithm => lab.curve().is_some(),
         _ => true,
     }
 }

@@ -3,16 +3,18 @@
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
+use std::rc::Rc;
 
 use glam::DVec2;
 
 use crate::app::command::Command;
 use crate::app::sheet::{Sheet, Shelf};
+use crate::app::story_cache::StoryCache;
 use crate::app::workspace::Room;
 use crate::core::spline_curve::Nurbs;
 use crate::course::{Lesson, Stepper, Verdict};
 use crate::document::{
-    Approximation, Document, Edit, EditError, History, ObjectId, Outcome, ShapeChange, View,
+    Approximation, Document, Edit, EditError, History, ObjectId, Outcome, ShapeChange, StepperKind, View,
 };
 use crate::figure::theme::Theme;
 
@@ -160,6 +162,8 @@ pub struct Lab {
     pub hovered: Hovered,
     /// What is found under the pointer in this frame; becomes [`Self::hovered`].
     pub hovering: Hovered,
+    /// The control points that go with the entry under the pointer, while [`Self::hovered`] is an entry.
+    pub entry_partners: Vec<usize>,
     /// The tool.
     pub tool: Tool,
     /// Colours and sizes.
@@ -180,6 +184,8 @@ pub struct Lab {
     pub commands: Vec<Command>,
     /// Size of the canvas in points in the last frame.
     pub canvas_size: DVec2,
+    /// The last story of the stepper.
+    pub story_cache: StoryCache,
     /// Whether long work is done within the frame instead of beside it: for tests, which then need not wait.
     pub at_once: bool,
 }
@@ -197,6 +203,7 @@ impl Lab {
             selection: sheet.selection,
             hovered: Hovered::Nothing,
             hovering: Hovered::Nothing,
+            entry_partners: Vec::new(),
             tool: Tool::Select,
             theme: Theme::light(),
             side: SidePage::Inspector,
@@ -207,6 +214,7 @@ impl Lab {
             messages: Vec::new(),
             commands: Vec::new(),
             canvas_size: DVec2::new(800.0, 600.0),
+            story_cache: StoryCache::default(),
             at_once: false,
         }
     }
@@ -314,11 +322,25 @@ impl Lab {
         self.history.commit();
     }
 
-    /// The stepper of the selected curve at its parameter.
-    pub fn scheme(&self) -> Option<Stepper> {
+    /// The chosen algorithm on the selected curve at its parameter.
+    pub fn scheme(&self) -> Option<Rc<Stepper>> {
+        self.told_scheme()?.ok()
+    }
+
+    /// As [`Self::scheme`], or a sentence that says why there is none; `None` without a curve.
+    pub fn told_scheme(&self) -> Option<Result<Rc<Stepper>, String>> {
         let object = self.selection.object?;
         let parameter = self.parameter(object)?;
-        crate::course::de_boor_stepper(self.history.document().curve(object)?, parameter).ok()
+        let object = self.history.document().object(object)?;
+        self.story_cache.told(object, self.view.stepper, parameter, &self.view.stepper_choices)
+    }
+
+    /// Chooses the algorithm that is told, from its first frame.
+    pub fn set_stepper(&mut self, kind: StepperKind) {
+        if self.view.stepper != kind {
+            self.view.stepper = kind;
+            self.stepper = StepperState { open: self.stepper.open, ..StepperState::default() };
+        }
     }
 
     /// Says something that was done.
@@ -350,7 +372,9 @@ impl Lab {
         {
             self.selection.knot = None;
         }
-        if let Some(stepper) = self.scheme() {
+        if self.stepper.open
+            && let Some(stepper) = self.scheme()
+        {
             self.stepper.frame = self.stepper.frame.min(stepper.frames().len().saturating_sub(1));
         }
     }

@@ -36,6 +36,7 @@ mod shortcut_sheet;
 mod smoke_log;
 mod status_bar;
 mod stepper_panel;
+pub mod story_cache;
 mod surfaces;
 #[cfg(test)]
 mod test_bench;

@@ -80,9 +80,12 @@ impl Command {
             | Self::ToggleCircle
             | Self::ToggleKnotLine
             | Self::ToggleBuilder
+            | Self::ExportFrames
             | Self::StepperPlay
             | Self::StepForward
-            | Self::StepBack => Some(Room::Curves),
+            | Self::StepBack
+            | Self::NextAlgorithm
+            | Self::PreviousAlgorithm => Some(Room::Curves),
             Self::ExportMesh => Some(Room::Surfaces),
             _ => self.menu().room(),
         }
@@ -96,6 +99,7 @@ impl Command {
             | Self::Save
             | Self::SaveAs
             | Self::ExportFigure
+            | Self::ExportFrames
             | Self::ImportMesh
             | Self::ExportMesh
             | Self::ImportData
@@ -156,6 +160,8 @@ impl Command {
             Self::StepperPlay
             | Self::StepForward
             | Self::StepBack
+            | Self::NextAlgorithm
+            | Self::PreviousAlgorithm
             | Self::NextLesson
             | Self::PreviousLesson => Menu::Lesson,
             Self::Palette | Self::ShortcutSheet => Menu::Help,

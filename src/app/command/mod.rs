@@ -19,6 +19,8 @@ pub enum Command {
     SaveAs,
     /// Writes a figure of the canvas.
     ExportFigure,
+    /// Writes all frames of the algorithm that is stepped through.
+    ExportFrames,
     /// Adds the mesh of an OBJ file.
     ImportMesh,
     /// Writes the selected mesh at the level shown.
@@ -175,6 +177,10 @@ pub enum Command {
     LookDark,
     /// Look for a projector.
     LookPresentation,
+    /// The next algorithm of the stepper.
+    NextAlgorithm,
+    /// The algorithm before.
+    PreviousAlgorithm,
     /// Plays the construction step by step, or stops.
     StepperPlay,
     /// One step on.
@@ -193,12 +199,13 @@ pub enum Command {
 
 impl Command {
     /// All commands, in the order of menus, palette and sheet.
-    pub const ALL: [Self; 90] = [
+    pub const ALL: [Self; 93] = [
         Self::New,
         Self::Open,
         Self::Save,
         Self::SaveAs,
         Self::ExportFigure,
+        Self::ExportFrames,
         Self::ImportMesh,
         Self::ExportMesh,
         Self::ImportData,
@@ -280,6 +287,8 @@ impl Command {
         Self::StepperPlay,
         Self::StepForward,
         Self::StepBack,
+        Self::NextAlgorithm,
+        Self::PreviousAlgorithm,
         Self::NextLesson,
         Self::PreviousLesson,
         Self::Palette,

@@ -11,6 +11,10 @@ impl Command {
             Self::Save => ("Save", "Save the document"),
             Self::SaveAs => ("Save as…", "Save under another name"),
             Self::ExportFigure => ("Export figure…", "Write what the canvas shows as SVG, PDF or PNG"),
+            Self::ExportFrames => (
+                "Export frames…",
+                "Write every step of the algorithm: numbered SVG or PNG, one PDF, or a TikZ slide with overlays",
+            ),
             Self::ImportData => {
                 ("Import data…", "Read a table of x and y, with weights if wanted, from a CSV file")
             }
@@ -127,9 +131,13 @@ impl Command {
             Self::LookLight => ("Light look", "Dark ink on a light ground"),
             Self::LookDark => ("Dark look", "Light ink on a dark ground"),
             Self::LookPresentation => ("Presentation look", "Large type and thick lines for a projector"),
-            Self::StepperPlay => ("Play the construction", "Play de Boor's algorithm step by step, or pause"),
+            Self::StepperPlay => {
+                ("Play the construction", "Play the chosen algorithm step by step, or pause")
+            }
             Self::StepForward => ("Step forward", "The next step of the algorithm"),
             Self::StepBack => ("Step back", "The step before"),
+            Self::NextAlgorithm => ("Next algorithm", "Step through the next algorithm of the course"),
+            Self::PreviousAlgorithm => ("Previous algorithm", "Step through the algorithm before"),
             Self::NextLesson => ("Next lesson", "Open the next lesson of the course"),
             Self::PreviousLesson => ("Previous lesson", "Open the lesson before"),
             Self::Palette => ("Find a command…", "Type a few letters of what you want to do"),

@@ -7,6 +7,7 @@ mod draw_tool;
 mod gesture;
 mod handles;
 mod hit;
+mod step_hands;
 mod tools;
 
 use eframe::egui;

@@ -61,10 +61,7 @@ impl Scene {
     fn is_lit(&self, lab: &Lab, k: usize) -> bool {
         match lab.hovered {
             Hovered::Point(object, point) => object == self.object && point == k,
-            Hovered::Entry(object, level, position) => {
-                object == self.object
-                    && (position..=position + level).any(|j| self.active.coefficients.get(j) == Some(&k))
-            }
+            Hovered::Entry(object, ..) => object == self.object && lab.entry_partners.contains(&k),
             _ => false,
         }
     }
