@@ -29,7 +29,7 @@ pub(super) fn check(
     let size = polygon_size(curve);
     let Some(right) = entry.point() else { return Verdict::wrong(None, "The scheme holds no points.") };
     if size <= 0.0 {
-        return Verdict::wrong(None, "All control points lie in one place. Open the lesson again.");
+        return Verdict::wrong(None, "All control points lie in one place. Go back to the example.");
     }
     let measured = placed.distance(right) / size;
     if measured <= tolerance {
