@@ -1,12 +1,12 @@
 //! The list of lessons, and the open lesson: text, formula, things to try, a question.
 
-use eframe::egui::{Align, Button, Frame, Key, Label, Layout, RichText, ScrollArea, TextEdit, Ui};
+use eframe::egui::{Align, Button, Frame, Key, Label, Layout, Modifiers, RichText, ScrollArea, TextEdit, Ui};
 
 use crate::app::command::Command;
 use crate::app::lab::{Lab, LessonState};
 use crate::app::painter::color32;
 use crate::app::{files, formula_view};
-use crate::course::{Answer, FitTask, Task, lessons};
+use crate::course::{Answer, FitTask, Task, chapter_title, lessons};
 
 /// Shows the lessons in the order of the course; a click opens one.
 pub(crate) fn show_list(lab: &mut Lab, ui: &mut Ui) {
@@ -14,7 +14,13 @@ pub(crate) fn show_list(lab: &mut Lab, ui: &mut Ui) {
     let open = lab.lesson.as_ref().map(|state| state.index);
     let mut chosen = None;
     ScrollArea::vertical().id_salt("lessons").auto_shrink([false, false]).show(ui, |ui| {
+        let mut chapter = 0;
         for (index, lesson) in lessons().iter().enumerate() {
+            if lesson.chapter() != chapter {
+                chapter = lesson.chapter();
+                ui.add_space(if index == 0 { 0.0 } else { 5.0 });
+                ui.label(RichText::new(format!("{chapter}  {}", chapter_title(chapter))).weak().small());
+            }
             let button = Button::selectable(open == Some(index), lesson.heading()).wrap();
             let response = ui.with_layout(Layout::top_down_justified(Align::LEFT), |ui| ui.add(button)).inner;
             if response.on_hover_text(format!("Open the lesson of section {}", lesson.section)).clicked() {
@@ -35,7 +41,7 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
         ui.label(RichText::new("Choose a lesson on the left, or with PageDown.").weak());
         return;
     };
-    let (mut restart, mut leave) = (false, false);
+    let mut leave = false;
     ScrollArea::vertical().id_salt(("lesson", state.index)).auto_shrink([false, false]).show(ui, |ui| {
         ui.add_space(2.0);
         text(lab, ui, &state);
@@ -44,7 +50,10 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
         ui.add_space(8.0);
         ui.separator();
         ui.horizontal_wrapped(|ui| {
-            restart = ui.button("Start again").on_hover_text("Show the lesson as it was at first").clicked();
+            let (words, hint) = Command::BackToExample.text();
+            if ui.button(words).on_hover_text(hint).clicked() {
+                lab.commands.push(Command::BackToExample);
+            }
             leave = ui
                 .button("Back to my document")
                 .on_hover_text("Close the lesson; work on it is kept")
@@ -52,9 +61,7 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
         });
     });
     lab.lesson = Some(state);
-    if restart {
-        files::restart_lesson(lab);
-    } else if leave {
+    if leave {
         files::back_to_document(lab);
     }
 }
@@ -62,9 +69,10 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
 fn text(lab: &mut Lab, ui: &mut Ui, state: &LessonState) {
     let lesson = &state.lesson;
     ui.horizontal(|ui| {
+        let count = lessons().len();
         ui.label(RichText::new(format!("Section {}", lesson.section)).weak());
+        ui.label(RichText::new(format!("lesson {} of {count}", state.index + 1)).weak().small());
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let count = lessons().len();
             for (command, text, enabled) in [
                 (Command::NextLesson, "Next", state.index + 1 < count),
                 (Command::PreviousLesson, "Previous", state.index > 0),
@@ -122,7 +130,9 @@ fn question(lab: &mut Lab, ui: &mut Ui, state: &mut LessonState) {
                     let edit =
                         TextEdit::singleline(&mut state.answer).desired_width(width).hint_text("a number");
                     let field = ui.add(edit).accessible_name("Answer");
-                    let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+                    // Taken away, as Enter would also play the construction.
+                    let entered = field.lost_focus()
+                        && ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Enter));
                     if field.changed() {
                         state.verdict = None;
                     }

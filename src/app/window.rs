@@ -278,6 +278,7 @@ impl LabApp {
             }
             Command::NextLesson => turn_page(lab, 1),
             Command::PreviousLesson => turn_page(lab, -1),
+            Command::BackToExample => files::back_to_example(lab),
             Command::Palette => self.palette.open(),
             Command::ShortcutSheet => self.shortcut_sheet.toggle(),
             _ => {}

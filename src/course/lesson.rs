@@ -119,12 +119,10 @@ struct LessonFile {
 }
 
 /// The lessons in the course's order.
-pub fn lessons() -> Vec<Lesson> {
+pub fn lessons() -> &'static [Lesson] {
     static LESSONS: OnceLock<Vec<Lesson>> = OnceLock::new();
     // A test loads every file, so that none is missing here.
-    LESSONS
-        .get_or_init(|| FILES.iter().filter_map(|(_, text)| Lesson::from_json(text).ok()).collect())
-        .clone()
+    LESSONS.get_or_init(|| FILES.iter().filter_map(|(_, text)| Lesson::from_json(text).ok()).collect())
 }
 
 impl Lesson {
@@ -164,6 +162,11 @@ impl Lesson {
         format!("{}  {}", self.section, self.title)
     }
 
+    /// The number of the chapter.
+    pub fn chapter(&self) -> usize {
+        self.section.split('.').next().and_then(|number| number.parse().ok()).unwrap_or(0)
+    }
+
     /// All texts that may contain inline formulas.
     pub fn texts(&self) -> impl Iterator<Item = &str> {
         let question = [self.question.prompt.as_str(), self.question.feedback.as_str()];
@@ -179,6 +182,22 @@ impl Lesson {
             });
         std::iter::once(self.display_formula.clone()).chain(inline).collect()
     }
+}
+
+/// The title of a chapter of the course; empty if there is none with this number.
+pub fn chapter_title(chapter: usize) -> &'static str {
+    const TITLES: [&str; 9] = [
+        "Polynomials",
+        "Bézier curves",
+        "Rational Bézier curves",
+        "B-splines",
+        "Approximation",
+        "Spline curves",
+        "Multivariate splines",
+        "Surfaces and solids",
+        "Finite elements",
+    ];
+    chapter.checked_sub(1).and_then(|index| TITLES.get(index)).copied().unwrap_or_default()
 }
 
 /// Divides a text at its dollar signs into words and formulas; empty stretches are left out.

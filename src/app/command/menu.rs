@@ -147,7 +147,8 @@ impl Command {
             | Self::StepForward
             | Self::StepBack
             | Self::NextLesson
-            | Self::PreviousLesson => Menu::Lesson,
+            | Self::PreviousLesson
+            | Self::BackToExample => Menu::Lesson,
             Self::Palette | Self::ShortcutSheet => Menu::Help,
             _ => Menu::View,
         }

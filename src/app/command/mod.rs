@@ -165,6 +165,8 @@ pub enum Command {
     NextLesson,
     /// Previous lesson.
     PreviousLesson,
+    /// The lesson's scene as it was at first.
+    BackToExample,
     /// Finds a command by name.
     Palette,
     /// All shortcuts.
@@ -173,7 +175,7 @@ pub enum Command {
 
 impl Command {
     /// All commands, in the order of menus, palette and sheet.
-    pub const ALL: [Self; 80] = [
+    pub const ALL: [Self; 81] = [
         Self::New,
         Self::Open,
         Self::Save,
@@ -252,6 +254,7 @@ impl Command {
         Self::StepBack,
         Self::NextLesson,
         Self::PreviousLesson,
+        Self::BackToExample,
         Self::Palette,
         Self::ShortcutSheet,
     ];
