@@ -85,11 +85,13 @@ fn page_down_opens_every_lesson_in_the_order_of_the_course() {
         press(&mut window, Key::PageDown);
         assert_eq!(open(&window).index, index, "{}", lesson.section);
         assert_eq!(lab(&window).history.document(), &lesson.document, "{}: the scene", lesson.section);
-        for words in
-            [format!("Section {}", lesson.section), format!("lesson {} of {}", index + 1, lessons().len())]
+        for words in [format!("Section {}", lesson.section), format!("{} of {}", index + 1, lessons().len())]
         {
             assert!(window.query_by_label(&words).is_some(), "{words} is not shown");
         }
+        window.run_steps(40);
+        let listed = window.get_by_label(&lesson.heading()).rect();
+        assert!(listed.min.y > 100.0 && listed.max.y < 690.0, "{} is out of sight: {listed}", lesson.section);
     }
     press(&mut window, Key::PageDown);
     assert_eq!(open(&window).index, lessons().len() - 1, "the last one stays");

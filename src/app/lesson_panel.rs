@@ -12,6 +12,9 @@ use crate::course::{Answer, FitTask, Task, chapter_title, lessons};
 pub(crate) fn show_list(lab: &mut Lab, ui: &mut Ui) {
     ui.heading("Lessons");
     let open = lab.lesson.as_ref().map(|state| state.index);
+    let seen_id = ui.make_persistent_id("lesson in the list");
+    let seen: Option<usize> = ui.data(|data| data.get_temp(seen_id)).flatten();
+    ui.data_mut(|data| data.insert_temp(seen_id, open));
     let mut chosen = None;
     ScrollArea::vertical().id_salt("lessons").auto_shrink([false, false]).show(ui, |ui| {
         let mut chapter = 0;
@@ -23,6 +26,10 @@ pub(crate) fn show_list(lab: &mut Lab, ui: &mut Ui) {
             }
             let button = Button::selectable(open == Some(index), lesson.heading()).wrap();
             let response = ui.with_layout(Layout::top_down_justified(Align::LEFT), |ui| ui.add(button)).inner;
+            if open == Some(index) && seen != open {
+                // Turned to with a key, it may be out of sight.
+                response.scroll_to_me(None);
+            }
             if response.on_hover_text(format!("Open the lesson of section {}", lesson.section)).clicked() {
                 chosen = Some(index);
             }
@@ -71,7 +78,13 @@ fn text(lab: &mut Lab, ui: &mut Ui, state: &LessonState) {
     ui.horizontal(|ui| {
         let count = lessons().len();
         ui.label(RichText::new(format!("Section {}", lesson.section)).weak());
-        ui.label(RichText::new(format!("lesson {} of {count}", state.index + 1)).weak().small());
+        let place = ui.label(RichText::new(format!("{} of {count}", state.index + 1)).weak().small());
+        let chapter = lesson.chapter();
+        place.on_hover_text(format!(
+            "Lesson {} of {count}; chapter {chapter}, {}",
+            state.index + 1,
+            chapter_title(chapter)
+        ));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             for (command, text, enabled) in [
                 (Command::NextLesson, "Next", state.index + 1 < count),
