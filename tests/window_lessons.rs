@@ -5,6 +5,7 @@
 use eframe::egui::{Key, Modifiers, Vec2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
+use glam::DVec2;
 use spline_lab::app::LabApp;
 use spline_lab::app::lab::{Lab, LessonState};
 use spline_lab::course::{Task, lessons};
@@ -89,7 +90,7 @@ fn page_down_opens_every_lesson_in_the_order_of_the_course() {
         {
             assert!(window.query_by_label(&words).is_some(), "{words} is not shown");
         }
-        window.run_steps(40);
+        window.run_steps(20);
         let listed = window.get_by_label(&lesson.heading()).rect();
         assert!(listed.min.y > 100.0 && listed.max.y < 690.0, "{} is out of sight: {listed}", lesson.section);
     }
@@ -149,6 +150,92 @@ fn the_selected_end_of_the_pointer_is_the_answer() {
     window.run_steps(3);
     click(&mut window, check);
     assert!(open(&window).verdict.as_ref().unwrap().correct, "{:?}", open(&window).verdict);
+}
+
+/// Drags the control point of an object to a place in the plane.
+fn drag_point(window: &mut Window, object: u64, point: usize, to: DVec2) {
+    let found = lab(window).history.document().object(ObjectId(object)).unwrap();
+    let label = format!("Control point {point} of {}", found.name);
+    let by = to - found.curve().unwrap().points()[point];
+    let scale = lab(window).view.camera.scale;
+    let from = window.get_by_label(&label).rect().center();
+    let by = vec2((by.x * scale) as f32, (-by.y * scale) as f32);
+    window.hover_at(from);
+    window.step();
+    window.drag_at(from);
+    window.step();
+    for part in 1..=4 {
+        window.hover_at(from + by * (part as f32 / 4.0));
+        window.step();
+    }
+    window.drop_at(from + by);
+    window.run_steps(2);
+}
+
+#[test]
+fn dragging_the_points_answers_the_questions_about_joints() {
+    for (section, point, to) in [("2.4", 1, DVec2::new(6.0, -4.0)), ("2.5", 2, DVec2::new(4.5, -2.0))] {
+        let mut window = at(section);
+        click(&mut window, "Check the curve");
+        assert!(!open(&window).verdict.as_ref().unwrap().correct, "{section}");
+        drag_point(&mut window, 2, point, to);
+        click(&mut window, "Check the curve");
+        assert!(open(&window).verdict.as_ref().unwrap().correct, "{section}: {:?}", open(&window).verdict);
+        assert_eq!(lab(&window).history.steps().0, 1, "{section}: one drag, one step");
+    }
+}
+
+#[test]
+fn keys_that_the_lessons_name_keep_the_shape_and_do_what_is_said() {
+    let count = |window: &Window| lab(window).curve().unwrap().points().len();
+    for (section, keys, more_points) in [
+        ("2.1", &[Key::E][..], 1),
+        ("2.6", &[Key::R, Key::R], 3),
+        ("4.2", &[Key::E], 3),
+        ("4.3", &[Key::R], 4),
+        ("6.1", &[Key::R, Key::R], 12),
+        ("6.1", &[Key::C], 3),
+        ("6.2", &[Key::R], 3),
+        ("6.3", &[Key::K], 1),
+    ] {
+        let mut window = at(section);
+        let (before, points) = (lab(&window).curve().unwrap().clone(), count(&window));
+        keys.iter().for_each(|&key| press(&mut window, key));
+        assert_eq!(count(&window), points + more_points, "{section}: {keys:?}");
+        let after = lab(&window).curve().unwrap();
+        let (left, right) = before.space().parameter_interval();
+        for i in 0..=50 {
+            let t = left + (right - left) * f64::from(i) / 50.0;
+            let away = before.evaluate(t).unwrap().distance(after.evaluate(t).unwrap());
+            assert!(away < 1e-9, "{section}: {keys:?} moves the curve by {away} at {t}");
+        }
+    }
+}
+
+#[test]
+fn a_typed_knot_makes_the_curve_pass_through_a_control_point() {
+    for (section, t, copies, place) in
+        [("6.3", "5", 1, DVec2::new(1.0, 6.0)), ("6.4", "2", 2, DVec2::new(3.25, 11.0))]
+    {
+        let mut window = at(section);
+        type_into(&mut window, "Parameter t", t);
+        for _ in 0..copies {
+            press(&mut window, Key::K);
+        }
+        let points = lab(&window).curve().unwrap().points();
+        assert!(points.iter().any(|point| point.distance(place) < 1e-12), "{section}: {points:?}");
+    }
+}
+
+/// Clicks a number field, types, and ends with Enter.
+fn type_into(window: &mut Window, label: &str, text: &str) {
+    window.get_by_label(label).click();
+    window.run_steps(3);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.run_steps(2);
+    window.get_by_label(label).type_text(text);
+    window.run_steps(2);
+    press(window, Key::Enter);
 }
 
 #[test]

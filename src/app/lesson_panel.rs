@@ -1,6 +1,8 @@
 //! The list of lessons, and the open lesson: text, formula, things to try, a question.
 
-use eframe::egui::{Align, Button, Frame, Key, Label, Layout, Modifiers, RichText, ScrollArea, TextEdit, Ui};
+use eframe::egui::{
+    Align, Button, Frame, Key, Label, Layout, Modifiers, RichText, ScrollArea, TextEdit, Ui, vec2,
+};
 
 use crate::app::command::Command;
 use crate::app::lab::{Lab, LessonState};
@@ -118,7 +120,11 @@ fn text(lab: &mut Lab, ui: &mut Ui, state: &LessonState) {
     ui.label(RichText::new("Things to try").strong());
     for (index, thing) in lesson.things_to_try.iter().enumerate() {
         ui.horizontal_top(|ui| {
-            ui.label(RichText::new(format!("{}.", index + 1)).color(color32(lab.theme.accent)));
+            let width = 14.0 * lab.theme.text_scale as f32;
+            ui.allocate_ui(vec2(width, 0.0), |ui| {
+                ui.set_min_width(width);
+                ui.label(RichText::new(format!("{}.", index + 1)).color(color32(lab.theme.accent)));
+            });
             ui.vertical(|ui| formula_view::rich_paragraph(ui, thing));
         });
     }
