@@ -130,7 +130,7 @@ fn a_weight_answers_the_question_about_conics() {
     click(&mut window, "Check the curve");
     let hint = open(&window).verdict.clone().unwrap();
     assert!(!hint.correct && hint.message.contains("outside"), "{hint:?}");
-    edit(&mut window, Edit::SetWeight { object: ObjectId(1), point: 1, weight: 0.7071 });
+    edit(&mut window, Edit::SetWeight { object: ObjectId(1), point: 1, weight: 0.708 });
     click(&mut window, "Check the curve");
     assert!(open(&window).verdict.as_ref().unwrap().correct, "{:?}", open(&window).verdict);
 }

@@ -142,7 +142,7 @@ pub(super) fn check_ends(
             );
         }
         let angle = DVec2::from_array(goal.direction).angle_to(found[1]).abs();
-        if !(angle <= tolerance) {
+        if angle.is_nan() || angle > tolerance {
             return Verdict::wrong(
                 Some(angle),
                 format!(
@@ -152,7 +152,7 @@ pub(super) fn check_ends(
         }
         let curvature = curvature(&found);
         let difference = (curvature - goal.curvature).abs() / goal.curvature.abs().max(f64::MIN_POSITIVE);
-        if !(difference <= tolerance) {
+        if difference.is_nan() || difference > tolerance {
             let (curvature, wanted) = (short_number(curvature), short_number(goal.curvature));
             return Verdict::wrong(
                 Some(difference),
