@@ -181,3 +181,109 @@ fn a_goal_without_its_other_curve_says_so() {
         assert!(!verdict.correct && verdict.message.contains("gone"), "{section}: {verdict:?}");
     }
 }
+
+/// The record of a worked example of the specification.
+fn example(id: &str) -> serde_json::Value {
+    let all: Vec<serde_json::Value> =
+        serde_json::from_str(include_str!("data/examples.json")).expect("the examples can be read");
+    all.into_iter().find(|example| example["id"] == id).unwrap_or_else(|| panic!("no example {id}"))
+}
+
+fn numbers(value: &serde_json::Value) -> Vec<f64> {
+    value.as_array().into_iter().flatten().map(|number| number.as_f64().expect("a number")).collect()
+}
+
+fn close(found: &[f64], expected: &[f64]) -> bool {
+    found.len() == expected.len() && found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12)
+}
+
+#[test]
+fn every_scene_is_a_worked_example() {
+    for (section, id) in [
+        ("2.1", "2.1-a"),
+        ("2.2", "2.2-d"),
+        ("2.3", "2.3-a"),
+        ("2.4", "2.4-d"),
+        ("2.5", "2.5-a"),
+        ("2.6", "2.6-b"),
+        ("3.1", "3.1-a"),
+        ("3.2", "3.2-a"),
+        ("3.3", "3.3-a"),
+        ("4.5", "4.5-a"),
+        ("4.6", "4.6-c"),
+        ("6.1", "6.1-a"),
+        ("6.2", "6.2-a"),
+        ("6.3", "6.3-a"),
+        ("6.4", "6.4-a"),
+    ] {
+        let (lesson, input) = (lesson(section), &example(id)["input"]);
+        let curve = lesson.document.curve(ObjectId(1)).expect("the curve");
+        let flat: Vec<f64> = curve.points().iter().flat_map(|point| point.to_array()).collect();
+        let mut compared = 0;
+        for (field, value) in input.as_object().expect("a record") {
+            let (found, expected) = match field.as_str() {
+                "C" | "control" => {
+                    (flat.clone(), value.as_array().expect("points").iter().flat_map(numbers).collect())
+                }
+                "c" => (curve.points().iter().map(|point| point.y).collect(), numbers(value)),
+                "w" => (curve.weights().to_vec(), numbers(value)),
+                "knots" | "tau" => (curve.space().knots().to_vec(), numbers(value)),
+                "T" => {
+                    (curve.space().period().into_iter().collect(), vec![value.as_f64().expect("a number")])
+                }
+                "n" => (vec![curve.degree() as f64], vec![value.as_f64().expect("a number")]),
+                _ => continue,
+            };
+            assert!(close(&found, &expected), "{section}, {id}, {field}: {found:?} instead of {expected:?}");
+            compared += 1;
+        }
+        assert!(compared > 0, "{section}: nothing of {id} was compared");
+    }
+}
+
+#[test]
+fn graphs_in_the_scenes_are_the_worked_examples_stretched() {
+    for (section, id, factor) in [("4.3", "4.3-b", 8.0), ("4.4", "4.4-j", 1.0)] {
+        let (lesson, example) = (lesson(section), example(id));
+        let curve = lesson.document.curve(ObjectId(1)).expect("the curve");
+        let heights: Vec<f64> = curve.points().iter().map(|point| factor * point.y).collect();
+        assert!(close(&heights, &numbers(&example["expect"]["c"])), "{section}: {heights:?}");
+        assert!(close(curve.space().knots(), &numbers(&example["input"]["knots"])), "{section}: knots");
+    }
+    for (section, id, factor) in [("4.1", "4.1-a", 4.0), ("4.2", "4.2-a", 2.0)] {
+        let (lesson, knots) = (lesson(section), numbers(&example(id)["input"]["knots"]));
+        let curve = lesson.document.curve(ObjectId(1)).expect("the curve");
+        let heights: Vec<f64> = curve.points().iter().map(|point| point.y).collect();
+        let k = heights.iter().position(|&height| height > 0.0).expect("a hump");
+        let alone =
+            heights.iter().enumerate().all(|(j, &height)| height == if j == k { factor } else { 0.0 });
+        assert!(alone, "{section}: {heights:?}");
+        assert!(close(&curve.space().knots()[k..k + curve.degree() + 2], &knots), "{section}: knots of b");
+    }
+    // Graphs stand over the knot averages, so that x = t.
+    for section in ["4.1", "4.2", "4.3", "4.4"] {
+        let curve = lesson(section).document.curve(ObjectId(1)).expect("the curve");
+        let places: Vec<f64> = curve.points().iter().map(|point| point.x).collect();
+        assert!(close(&places, &curve.space().greville_abscissae()), "{section}: {places:?}");
+    }
+}
+
+#[test]
+fn the_quarter_circle_has_the_ends_of_the_worked_example() {
+    let input = example("2.7-b")["input"].clone();
+    let curve = lesson("2.7").document.curve(ObjectId(1)).expect("the curve");
+    let points = curve.points();
+    for (end, point, direction) in
+        [(0, points[0], points[1] - points[0]), (1, points[3], points[3] - points[2])]
+    {
+        assert!(close(&point.to_array(), &numbers(&input["f"][end])), "end {end}: {point}");
+        let direction = direction.normalize();
+        assert!(close(&direction.to_array(), &numbers(&input["d"][end])), "end {end}: {direction}");
+    }
+    let conic = lesson("3.4").document.curve(ObjectId(1)).expect("the curve");
+    let circle: Vec<Vec<f64>> =
+        example("3.4-a")["input"]["C"][0].as_array().expect("points").iter().map(numbers).collect();
+    for (point, expected) in conic.points().iter().zip(circle) {
+        assert!(close(&point.to_array(), &expected), "{point} instead of {expected:?}");
+    }
+}

@@ -106,8 +106,11 @@ fn numbers_are_typed_right_and_wrong() {
         let mut window = at(section);
         assert!(!answer(&mut window, wrong), "{section}: {wrong}");
         assert!(window.query_by_label("Not yet.").is_some(), "{section}: the verdict is shown");
+        assert!(lab(&window).shelf.answered.is_empty(), "{section}: nothing is answered yet");
         assert!(answer(&mut window, right), "{section}: {right}");
         assert!(window.query_by_label("Right.").is_some(), "{section}: the praise is shown");
+        let index = open(&window).index;
+        assert!(lab(&window).shelf.answered.contains(&index), "{section}: the list shows a tick");
         assert_eq!(lab(&window).history.steps().0, 0, "{section}: typing an answer changes nothing");
     }
 }

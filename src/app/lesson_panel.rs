@@ -1,7 +1,8 @@
 //! The list of lessons, and the open lesson: text, formula, things to try, a question.
 
 use eframe::egui::{
-    Align, Button, Frame, Key, Label, Layout, Modifiers, RichText, ScrollArea, TextEdit, Ui, vec2,
+    Align, Button, Color32, Frame, Key, Label, Layout, Modifiers, Rect, RichText, ScrollArea, Stroke,
+    TextEdit, Ui, vec2,
 };
 
 use crate::app::command::Command;
@@ -30,15 +31,32 @@ pub(crate) fn show_list(lab: &mut Lab, ui: &mut Ui) {
             let response = ui.with_layout(Layout::top_down_justified(Align::LEFT), |ui| ui.add(button)).inner;
             if open == Some(index) && seen != open {
                 // Turned to with a key, it may be out of sight.
-                response.scroll_to_me(None);
+                response.scroll_to_me(Some(Align::Center));
             }
-            if response.on_hover_text(format!("Open the lesson of section {}", lesson.section)).clicked() {
+            let answered = lab.shelf.answered.contains(&index);
+            if answered {
+                tick(ui, response.rect, color32(lab.theme.basis_color(2)));
+            }
+            let also = if answered { "; its question is answered" } else { "" };
+            if response
+                .on_hover_text(format!("Open the lesson of section {}{also}", lesson.section))
+                .clicked()
+            {
                 chosen = Some(index);
             }
         }
     });
     if let Some(index) = chosen {
         files::open_lesson(lab, index);
+    }
+}
+
+/// A tick at the right end of a row.
+fn tick(ui: &Ui, row: Rect, color: Color32) {
+    let at = row.right_center() - vec2(13.0, 0.0);
+    let stroke = Stroke::new(2.0, color);
+    for (from, to) in [((0.0, 0.0), (3.0, 3.5)), ((3.0, 3.5), (8.0, -4.0))] {
+        ui.painter().line_segment([at + vec2(from.0, from.1), at + vec2(to.0, to.1)], stroke);
     }
 }
 
@@ -181,7 +199,11 @@ fn question(lab: &mut Lab, ui: &mut Ui, state: &mut LessonState) {
             }
         }
         if let Some(answer) = asked {
-            state.verdict = Some(question.check(lab.history.document(), &answer));
+            let verdict = question.check(lab.history.document(), &answer);
+            if verdict.correct {
+                lab.shelf.answered.insert(state.index);
+            }
+            state.verdict = Some(verdict);
         }
         if let Some(verdict) = &state.verdict {
             let color = if verdict.correct { lab.theme.basis_color(2) } else { lab.theme.error };
