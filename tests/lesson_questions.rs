@@ -108,7 +108,7 @@ fn a_point_is_placed_with_the_end_of_the_short_line() {
     let place = |x: f64, y: f64| lesson.question.check(&lesson.document, &Answer::Point(DVec2::new(x, y)));
     assert!(place(2.0625, 1.875).correct, "example 2.3-a from the other end");
     let one_quarter = place(0.5625, 0.875);
-    assert!(!one_quarter.correct && one_quarter.message.contains("$p_0^1$"), "{one_quarter:?}");
+    assert!(!one_quarter.correct && one_quarter.message.contains("$p_{0}^{1}$"), "{one_quarter:?}");
 }
 
 #[test]

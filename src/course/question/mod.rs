@@ -23,7 +23,7 @@ use serde::Deserialize;
 
 use crate::core::spline_curve::Nurbs;
 use crate::course::number_text::{parse_number, short_number};
-use crate::course::stepper::{Entry, Stepper, de_boor_stepper, de_casteljau_stepper};
+use crate::course::stepper::{Entry, Stepper, de_boor_stepper};
 use crate::document::{Document, ObjectId};
 
 pub use elements::ElementsQuantity;
@@ -87,7 +87,7 @@ pub enum Task {
         /// The largest difference that counts as right.
         tolerance: f64,
     },
-    /// Place the point `pⁱₖ` of de Boor's scheme.
+    /// Place the point `pⁱₖ` of de Boor's scheme, of de Casteljau's for a Bezier curve over `[0, 1]`.
     PlacePoint {
         /// The parameter.
         parameter: f64,
@@ -264,24 +264,30 @@ fn typed(answer: &Answer, judge: impl FnOnce(f64) -> Verdict) -> Verdict {
     }
 }
 
-/// The triangular scheme at `parameter` as the course names its entries: de Casteljau's for a Bezier curve over
-/// `[0, 1]` without weights, de Boor's for others.
+/// De Boor's scheme at `parameter`.
 fn scheme(curve: &Nurbs<DVec2>, parameter: f64) -> Result<Stepper, String> {
+    de_boor_stepper(curve, parameter).map_err(|error| sentence(&error.to_string()))
+}
+
+/// Whether the curve is a Bezier curve over `[0, 1]` without weights, so that its scheme is de Casteljau's.
+fn is_bezier(curve: &Nurbs<DVec2>) -> bool {
     let (n, space) = (curve.degree(), curve.space());
-    let is_bezier = !space.is_periodic()
+    curve.is_polynomial()
+        && !space.is_periodic()
         && space.dimension() == n + 1
         && space.multiplicity(0.0) == n
         && space.multiplicity(1.0) == n
-        && curve.is_polynomial();
-    let stepper = if is_bezier {
-        de_casteljau_stepper(curve.points(), parameter)
-    } else {
-        de_boor_stepper(curve, parameter)
-    };
-    stepper.map_err(|error| sentence(&error.to_string()))
 }
 
-/// The scheme at `parameter` and in it the entry `p_index^level`.
+/// The name of an entry: de Casteljau counts entries from their left parent, de Boor from their right one.
+fn name(curve: &Nurbs<DVec2>, entry: &Entry) -> String {
+    match entry.index.checked_sub(entry.level) {
+        Some(index) if entry.level > 0 && is_bezier(curve) => format!("p_{{{index}}}^{{{}}}", entry.level),
+        _ => entry.label.clone(),
+    }
+}
+
+/// The scheme at `parameter` and in it the entry `p_index^level`, as [`name`] counts.
 fn find_entry(
     curve: &Nurbs<DVec2>,
     parameter: f64,
@@ -289,7 +295,8 @@ fn find_entry(
     index: usize,
 ) -> Result<(Stepper, Entry), String> {
     let stepper = scheme(curve, parameter)?;
-    let entry = stepper.table().find(|entry| entry.level == level && entry.index == index).cloned();
+    let own_index = if is_bezier(curve) { index + level } else { index };
+    let entry = stepper.table().find(|entry| entry.level == level && entry.index == own_index).cloned();
     match entry {
         Some(entry) => Ok((stepper, entry)),
         None => Err(format!(

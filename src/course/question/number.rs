@@ -6,7 +6,7 @@ use serde::Deserialize;
 use crate::core::bspline::{Side, Spline};
 use crate::core::spline_curve::Nurbs;
 use crate::course::number_text::short_number;
-use crate::course::question::{Verdict, find_entry, judge, parents, scheme, sentence};
+use crate::course::question::{Verdict, find_entry, judge, name, parents, scheme, sentence};
 use crate::course::stepper::{Entry, Stepper, de_boor_stepper};
 
 /// A coordinate of the plane.
@@ -224,7 +224,7 @@ fn hint(
     match *quantity {
         Quantity::Entry { parameter, level, index, axis } => {
             match find_entry(curve, parameter, level, index) {
-                Ok((stepper, entry)) => entry_hint(&stepper, &entry, axis, value, close),
+                Ok((stepper, entry)) => entry_hint(curve, &stepper, &entry, axis, value, close),
                 Err(reason) => reason,
             }
         }
@@ -296,6 +296,7 @@ fn hint(
 
 /// What an intermediate point violates if it is `value`.
 fn entry_hint(
+    curve: &Nurbs<DVec2>,
     stepper: &Stepper,
     entry: &Entry,
     axis: Axis,
@@ -310,7 +311,7 @@ fn entry_hint(
         (Some(right), Some(all)) => entry.share.unwrap_or(0.0) * right / all,
         _ => entry.share.unwrap_or(0.0),
     };
-    let (name, left_name, right_name) = (&entry.label, &left.label, &right.label);
+    let [own, left_name, right_name] = [entry, left, right].map(|entry| name(curve, entry));
     let (from_text, to_text) = (short_number(from), short_number(to));
     if close(share * from + (1.0 - share) * to) {
         return format!(
@@ -320,7 +321,7 @@ fn entry_hint(
     }
     if value < from.min(to) || value > from.max(to) {
         return format!(
-            "${name}$ is a mean of ${left_name}$ = {from_text} and ${right_name}$ = {to_text}, so it lies between them."
+            "${own}$ is a mean of ${left_name}$ = {from_text} and ${right_name}$ = {to_text}, so it lies between them."
         );
     }
     if close(axis.other().of(&entry.coordinates)) {
@@ -328,7 +329,10 @@ fn entry_hint(
     }
     let others = [left, right].into_iter().chain(stepper.table().filter(|other| other.tie() != entry.tie()));
     if let Some(other) = others.into_iter().find(|other| close(axis.of(&other.coordinates))) {
-        return format!("That is ${}$; ${name}$ is made of ${left_name}$ and ${right_name}$.", other.label);
+        return format!(
+            "That is ${}$; ${own}$ is made of ${left_name}$ and ${right_name}$.",
+            name(curve, other)
+        );
     }
     format!(
         "It lies between ${left_name}$ = {from_text} and ${right_name}$ = {to_text}, but the share of ${right_name}$ is \
@@ -363,8 +367,8 @@ fn point_hint(
     if let Some(other) = stepper.table().find(|entry| close(axis.of(&entry.coordinates))) {
         return format!(
             "That is ${}$; the point is ${}$, the end of the scheme.",
-            other.label,
-            stepper.apex().label
+            name(curve, other),
+            name(curve, stepper.apex())
         );
     }
     "Follow the scheme down to its last entry.".to_owned()
