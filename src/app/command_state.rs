@@ -41,6 +41,7 @@ pub(crate) fn is_possible(command: Command, lab: &Lab) -> bool {
         return surfaces::is_possible(command, lab);
     }
     match command {
+        Command::BackToExample => lab.lesson.is_some(),
         Command::Undo => lab.history.undo_name().is_some(),
         Command::Redo => lab.history.redo_name().is_some(),
         Command::ExportFrames => lab.curve().is_some(),

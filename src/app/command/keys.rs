@@ -83,6 +83,7 @@ impl Command {
             Self::PreviousAlgorithm => (COMMAND, Key::OpenBracket),
             Self::NextLesson => (NONE, Key::PageDown),
             Self::PreviousLesson => (NONE, Key::PageUp),
+            Self::BackToExample => (NONE, Key::Home),
             Self::Palette => (COMMAND, Key::P),
             Self::ShortcutSheet => (NONE, Key::F1),
             Self::ImportMesh

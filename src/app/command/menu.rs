@@ -163,7 +163,8 @@ impl Command {
             | Self::NextAlgorithm
             | Self::PreviousAlgorithm
             | Self::NextLesson
-            | Self::PreviousLesson => Menu::Lesson,
+            | Self::PreviousLesson
+            | Self::BackToExample => Menu::Lesson,
             Self::Palette | Self::ShortcutSheet => Menu::Help,
             _ => Menu::View,
         }

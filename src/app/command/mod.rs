@@ -191,6 +191,8 @@ pub enum Command {
     NextLesson,
     /// Previous lesson.
     PreviousLesson,
+    /// The lesson's scene as it was at first.
+    BackToExample,
     /// Finds a command by name.
     Palette,
     /// All shortcuts.
@@ -199,7 +201,7 @@ pub enum Command {
 
 impl Command {
     /// All commands, in the order of menus, palette and sheet.
-    pub const ALL: [Self; 93] = [
+    pub const ALL: [Self; 94] = [
         Self::New,
         Self::Open,
         Self::Save,
@@ -291,6 +293,7 @@ impl Command {
         Self::PreviousAlgorithm,
         Self::NextLesson,
         Self::PreviousLesson,
+        Self::BackToExample,
         Self::Palette,
         Self::ShortcutSheet,
     ];

@@ -140,6 +140,10 @@ impl Command {
             Self::PreviousAlgorithm => ("Previous algorithm", "Step through the algorithm before"),
             Self::NextLesson => ("Next lesson", "Open the next lesson of the course"),
             Self::PreviousLesson => ("Previous lesson", "Open the lesson before"),
+            Self::BackToExample => (
+                "Back to the example",
+                "Show the lesson's scene as it was at first; Ctrl+Z brings back your work",
+            ),
             Self::Palette => ("Find a command…", "Type a few letters of what you want to do"),
             Self::ShortcutSheet => ("Shortcuts", "All keys and what the mouse does"),
         }
