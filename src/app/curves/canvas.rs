@@ -13,7 +13,9 @@ use crate::app::curves::handles;
 use crate::app::curves::hit::{Target, Trees, target_at};
 use crate::app::hands;
 use crate::app::lab::{DrawMode, Hovered, Lab, Tool};
-use crate::app::painter::{color32, paint_note, paint_picture, screen_from_world, world_from_screen};
+use crate::app::painter::{
+    color32, paint_note, paint_note_at_pointer, paint_picture, screen_from_world, world_from_screen,
+};
 use crate::document::{Edit, ObjectId};
 use crate::figure::composition::{Composition, GRID, SchemeReveal, compose_with, short_number};
 use crate::figure::picture::Viewport;
@@ -273,9 +275,7 @@ impl Canvas {
         if let Some(note) = self.note(lab)
             && let Some(pointer) = ui.input(|input| input.pointer.latest_pos())
         {
-            let size = 13.0 * lab.theme.text_scale as f32;
-            let (ink, ground) = (lab.theme.text, lab.theme.background);
-            paint_note(&painter, pointer + vec2(16.0, 18.0), Align2::LEFT_TOP, &note, size, ink, ground);
+            paint_note_at_pointer(&painter, pointer, rect, &note, &lab.theme);
         }
         if let Some(gesture) = &self.gesture
             && let Some(marquee) = pointer.and_then(|pointer| gesture.marquee(pointer))
@@ -319,8 +319,9 @@ impl Canvas {
             | Target::Ring(..)
             | Target::WeightPoint(..)
             | Target::EditPoint(..)
+            | Target::Curve(..)
+            | Target::Knot(..)
             | Target::Parameter(_) => CursorIcon::Grab,
-            Target::Curve(..) | Target::Knot(..) => CursorIcon::PointingHand,
             Target::Edge(..) | Target::Nothing => CursorIcon::Default,
         };
         ui.set_cursor_icon(icon);
@@ -348,7 +349,7 @@ fn hint(lab: &Lab) -> Option<&'static str> {
     }
     let untouched = lab.history.steps() == (0, 0) && lab.path.is_none() && lab.lesson.is_none();
     untouched.then_some(
-        "Drag a round handle.  Double-click a curve to insert a knot.  Slide the square to move t.",
+        "Drag a round handle, or the curve itself.  Double-click a curve to insert a knot.  Slide the square to move t.",
     )
 }
 

@@ -1,13 +1,13 @@
 //! Drawing a new curve, click by click, by free hand, and with typed numbers.
 
-use eframe::egui::{self, Align2, Event, Key, Modifiers, Painter, Pos2, Rect, Shape, Stroke, Ui, vec2};
+use eframe::egui::{self, Event, Key, Modifiers, Painter, Pos2, Rect, Shape, Stroke, Ui};
 use glam::DVec2;
 
 use crate::app::curves::draw_shapes::{circle_through, conic_weight, construct, half_axes, shoulder};
 use crate::app::hands::{DEAD_ZONE, constrained, pressed_at};
 use crate::app::lab::{DrawMode, Lab, Tool};
 use crate::app::number_text::parse_list;
-use crate::app::painter::{color32, paint_note, screen_from_world, world_from_screen};
+use crate::app::painter::{color32, paint_note_at_pointer, screen_from_world, world_from_screen};
 use crate::core::spline_curve::{FitOptions, FittingError, Nurbs, fit_stroke};
 use crate::course::number_text::parse_number;
 use crate::document::{CurveDisplay, Edit};
@@ -449,9 +449,7 @@ impl Drawing {
                 Some(format!("{}|", self.typed))
             };
             if let Some(note) = note {
-                let size = 13.0 * lab.theme.text_scale as f32;
-                let (text, ground) = (lab.theme.text, lab.theme.background);
-                paint_note(painter, pointer + vec2(16.0, 18.0), Align2::LEFT_TOP, &note, size, text, ground);
+                paint_note_at_pointer(painter, pointer, rect, &note, &lab.theme);
             }
         }
     }

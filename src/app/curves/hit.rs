@@ -106,11 +106,6 @@ pub(super) fn target_at(
         {
             return Target::Bead(object.id, point);
         }
-        if let Some((point, place)) = ring_place(lab, object, viewport, 0.0)
-            && near(place, POINT_REACH)
-        {
-            return Target::Ring(object.id, point);
-        }
         if lab.edit_points
             && let Some(Ok(places)) = object.curve().map(Nurbs::edit_points)
             && let Some(point) = nearest(&places, viewport, rect, pointer)
@@ -119,6 +114,11 @@ pub(super) fn target_at(
         }
         if let Some(point) = nearest_point(object, viewport, rect, pointer) {
             return Target::Point(object.id, point);
+        }
+        if let Some((point, place)) = ring_place(lab, object, viewport, 0.0)
+            && near(place, POINT_REACH)
+        {
+            return Target::Ring(object.id, point);
         }
         if let Some(edge) = nearest(&weight_points(lab, object), viewport, rect, pointer) {
             return Target::WeightPoint(object.id, edge);
