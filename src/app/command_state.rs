@@ -50,6 +50,8 @@ pub(crate) fn is_possible(command: Command, lab: &Lab) -> bool {
         Command::RemoveKnot => lab.curve().is_some() && lab.selection.knot.is_some(),
         Command::ElevateDegree => lab.curve().is_some_and(|curve| curve.degree() < HIGHEST_DEGREE),
         Command::ReduceDegree => lab.curve().is_some_and(|curve| curve.degree() > 1),
+        Command::JoinCurves => crate::app::curves::nearest_other(lab).is_some(),
+        Command::InterpolateEnds => lab.curve().is_some_and(|curve| !curve.space().is_periodic()),
         Command::ResetWeights => lab.curve().is_some_and(|curve| !curve.is_polynomial()),
         Command::SelectAll => {
             lab.curve().is_some() || lab.approximation().is_some() || problem(lab).is_some()
@@ -84,6 +86,13 @@ pub(crate) fn is_possible(command: Command, lab: &Lab) -> bool {
         | Command::RefineUniformly
         | Command::ToggleClosed
         | Command::Reverse
+        | Command::SplitCurve
+        | Command::TrimBefore
+        | Command::TrimAfter
+        | Command::Trim
+        | Command::BezierForm
+        | Command::TransformCurve
+        | Command::OffsetCurve
         | Command::TogglePolygon
         | Command::ToggleComb
         | Command::ToggleConstruction

@@ -210,6 +210,10 @@ pub struct Lab {
     pub lesson: Option<LessonState>,
     /// What the last operation did to the shape, as a sentence for the status line.
     pub shape_note: Option<String>,
+    /// What the last operation did to the shape, for the badge.
+    pub shape: ShapeChange,
+    /// The document before the last operation: curves that differ from it have a ghost.
+    pub before: Option<Document>,
     /// Messages not yet shown.
     pub messages: Vec<Message>,
     /// Commands asked for by panels, carried out at the end of the frame.
@@ -248,6 +252,8 @@ impl Lab {
             knots: KnotHands::default(),
             lesson: None,
             shape_note: None,
+            shape: ShapeChange::None,
+            before: None,
             messages: Vec::new(),
             commands: Vec::new(),
             canvas_size: DVec2::new(800.0, 600.0),
@@ -264,6 +270,7 @@ impl Lab {
         self.tool = Tool::Select;
         self.stepper = StepperState { open: self.stepper.open, ..StepperState::default() };
         self.shape_note = None;
+        self.before = None;
         self.shelf.opened += 1;
         Sheet {
             history: std::mem::replace(&mut self.history, sheet.history),
@@ -334,13 +341,18 @@ impl Lab {
 
     /// Applies `edit` as one undo step; says what happened to the shape, or why it could not be done.
     pub fn edit(&mut self, edit: Edit) -> Option<Outcome> {
+        let before = self.history.document().clone();
         let result = self.history.apply(edit);
+        if result.is_ok() {
+            self.before = Some(before);
+        }
         self.report(result)
     }
 
     /// Starts an interaction such as a drag; see [`History::begin`].
     pub fn begin(&mut self, name: impl Into<String>) {
         if !self.history.is_interacting() {
+            self.before = Some(self.history.document().clone());
             self.history.begin(name);
         }
     }
@@ -441,6 +453,7 @@ impl Lab {
     }
 
     fn note_shape(&mut self, shape: &ShapeChange) {
+        self.shape = *shape;
         self.shape_note = shape.sentence();
     }
 }

@@ -54,6 +54,16 @@ impl Command {
             Self::ElevateDegree => (NONE, Key::E),
             Self::ReduceDegree => (Modifiers::SHIFT, Key::E),
             Self::ToggleClosed => (NONE, Key::C),
+            Self::Reverse => (NONE, Key::Q),
+            Self::SplitCurve => (NONE, Key::S),
+            Self::JoinCurves => (NONE, Key::J),
+            Self::TrimBefore => (Modifiers::ALT, Key::B),
+            Self::TrimAfter => (Modifiers::ALT, Key::A),
+            Self::Trim => (NONE, Key::T),
+            Self::BezierForm => (NONE, Key::Z),
+            Self::InterpolateEnds => (NONE, Key::I),
+            Self::TransformCurve => (NONE, Key::M),
+            Self::OffsetCurve => (NONE, Key::Y),
             Self::LevelUp => (NONE, Key::CloseBracket),
             Self::LevelDown => (NONE, Key::OpenBracket),
             Self::ToggleNet => (NONE, Key::P),
@@ -112,7 +122,6 @@ impl Command {
             | Self::NewApproximation
             | Self::SampleFunction
             | Self::FirstScene
-            | Self::Reverse
             | Self::UniformKnots
             | Self::EndInterpolatingKnots
             | Self::ChordLengthKnots

@@ -128,6 +128,15 @@ impl Command {
             | Self::ReduceDegree
             | Self::ToggleClosed
             | Self::Reverse
+            | Self::SplitCurve
+            | Self::JoinCurves
+            | Self::TrimBefore
+            | Self::TrimAfter
+            | Self::Trim
+            | Self::BezierForm
+            | Self::InterpolateEnds
+            | Self::TransformCurve
+            | Self::OffsetCurve
             | Self::ResetWeights
             | Self::DrawThrough
             | Self::DrawStroke

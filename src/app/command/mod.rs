@@ -107,6 +107,24 @@ pub enum Command {
     ToggleClosed,
     /// Reverses the direction.
     Reverse,
+    /// Cuts the curve at the selected knot or at t.
+    SplitCurve,
+    /// Joins the nearest end of another curve.
+    JoinCurves,
+    /// Keeps the part before t.
+    TrimBefore,
+    /// Keeps the part after t.
+    TrimAfter,
+    /// Asks for the interval to keep.
+    Trim,
+    /// All knots n-fold.
+    BezierForm,
+    /// End knots n-fold.
+    InterpolateEnds,
+    /// Asks for a map of the whole curve.
+    TransformCurve,
+    /// Asks for the distance of a parallel curve.
+    OffsetCurve,
     /// All weights 1.
     ResetWeights,
     /// Handles on the curve on or off.
@@ -227,7 +245,7 @@ pub enum Command {
 
 impl Command {
     /// All commands, in the order of menus, palette and sheet.
-    pub const ALL: [Self; 107] = [
+    pub const ALL: [Self; 116] = [
         Self::New,
         Self::Open,
         Self::Save,
@@ -277,6 +295,15 @@ impl Command {
         Self::ReduceDegree,
         Self::ToggleClosed,
         Self::Reverse,
+        Self::SplitCurve,
+        Self::JoinCurves,
+        Self::TrimBefore,
+        Self::TrimAfter,
+        Self::Trim,
+        Self::BezierForm,
+        Self::InterpolateEnds,
+        Self::TransformCurve,
+        Self::OffsetCurve,
         Self::ResetWeights,
         Self::ToggleEditPoints,
         Self::ToggleWeightPoints,

@@ -113,6 +113,30 @@ impl Command {
             Self::ReduceDegree => ("Lower degree", "One degree down; the deviation is measured"),
             Self::ToggleClosed => ("Close or open", "Close an open curve, open a closed one"),
             Self::Reverse => ("Reverse direction", "Run through the curve the other way"),
+            Self::SplitCurve => {
+                ("Split", "Two curves at the selected knot or at t; a closed curve is opened there")
+            }
+            Self::JoinCurves => {
+                ("Join", "One curve with the open curve whose end is nearest; a gap is closed in its middle")
+            }
+            Self::TrimBefore => (
+                "Keep the part before t",
+                "Cut the curve at t and drop what lies behind; the rest keeps its shape",
+            ),
+            Self::TrimAfter => (
+                "Keep the part after t",
+                "Cut the curve at t and drop what lies before; the rest keeps its shape",
+            ),
+            Self::Trim => ("Trim…", "Keep the part between two parameters"),
+            Self::BezierForm => (
+                "To Bezier form",
+                "Make all knots n-fold: the control points of the Bezier curves; the shape is kept",
+            ),
+            Self::InterpolateEnds => ("Interpolate ends", "Make both end knots n-fold; the shape is kept"),
+            Self::TransformCurve => {
+                ("Transform…", "Move, rotate, scale or mirror the whole curve by numbers")
+            }
+            Self::OffsetCurve => ("Offset…", "A curve at a distance from this one, within a tolerance"),
             Self::ResetWeights => ("All weights 1", "Make the curve polynomial"),
             Self::ImportMesh => ("Import mesh…", "Add the mesh of an OBJ file to the document"),
             Self::ExportMesh => ("Export mesh…", "Write the selected mesh as OBJ, refined as it is shown"),

@@ -9,6 +9,7 @@ use crate::app::curves::commands;
 use crate::app::curves::context_menu;
 use crate::app::curves::draw_tool::Drawing;
 use crate::app::curves::gesture::Gesture;
+use crate::app::curves::ghost;
 use crate::app::curves::handles;
 use crate::app::curves::hit::{Target, Trees, target_at};
 use crate::app::curves::step_hands::{self, StepHands};
@@ -148,6 +149,7 @@ impl Canvas {
                 align::execute(command, lab);
             }
             Command::Escape => {
+                lab.before = None;
                 if self.gesture.take().is_some() {
                     lab.history.cancel();
                 } else if lab.tool == Tool::Draw {
@@ -271,6 +273,7 @@ impl Canvas {
         let choices = Composition { step: step(lab), transparent: false };
         let picture = compose_with(lab.history.document(), &lab.view, &lab.theme, viewport, &choices);
         paint_picture(&picture, viewport, rect, &painter);
+        ghost::paint(lab, viewport, rect, &painter);
         self.step_hands.paint(lab, viewport, rect, &painter, ui);
         let along = self.gesture.as_ref().map_or(0.0, Gesture::along);
         handles::paint(lab, viewport, rect, &painter, along);

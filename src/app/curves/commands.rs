@@ -81,7 +81,6 @@ pub(super) fn edit_selected(command: Command, lab: &mut Lab) -> bool {
                 return true;
             }
         },
-        Command::RefineUniformly => Edit::RefineUniformly { object },
         Command::ElevateDegree => Edit::ElevateDegree { object },
         Command::ReduceDegree => Edit::ReduceDegree { object },
         Command::ToggleClosed => {

@@ -7,8 +7,11 @@ mod context_menu;
 mod draw_shapes;
 mod draw_tool;
 mod gesture;
+mod ghost;
 mod handles;
 mod hit;
+mod operation_form;
+mod operations;
 mod step_hands;
 mod tools;
 mod weight_handles;
@@ -21,11 +24,13 @@ use crate::app::workspace::{Room, Workspace};
 use crate::figure::composition::short_number;
 
 pub(crate) use canvas::Canvas;
+pub(crate) use operations::nearest_other;
 
 /// The workspace of plane curves.
 #[derive(Debug, Default)]
 pub(crate) struct Curves {
     canvas: Canvas,
+    form: operation_form::OperationForm,
 }
 
 impl Workspace for Curves {
@@ -54,10 +59,17 @@ impl Workspace for Curves {
 
     fn canvas(&mut self, lab: &mut Lab, ui: &mut egui::Ui) {
         self.canvas.show(lab, ui);
+        self.form.show(lab, ui);
     }
 
     fn execute(&mut self, command: Command, lab: &mut Lab) -> bool {
-        crate::app::knot_line::execute(command, lab) || self.canvas.execute(command, lab)
+        if command == Command::Escape && self.form.close() {
+            return true;
+        }
+        self.form.open(command, lab)
+            || operations::execute(command, lab)
+            || crate::app::knot_line::execute(command, lab)
+            || self.canvas.execute(command, lab)
     }
 
     fn status(&self, lab: &Lab) -> String {

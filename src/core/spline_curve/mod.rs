@@ -8,6 +8,7 @@
 //! | `least_norm_move`, `edit_points` | a point of the curve moved, alone or with other points kept |
 //! | `fitting`, `fitting_stroke` | B.16 least squares for sequences of points, strokes |
 //! | `trim`, `join` | 6.1 a part of a curve, both sides of a parameter, two curves as one |
+//! | `offset` | the curve at a distance, within a tolerance |
 //! | `hull` | 6.2 hull and box of the active control points |
 //! | `distance_bound` | 6.2 distance of curve and control polygon |
 //! | `tessellation` | 6.2 polygons within a tolerance |
@@ -71,6 +72,7 @@ mod line_intersection;
 mod local_piece;
 mod nearest_spline;
 mod nurbs;
+mod offset;
 mod piecewise_sign;
 mod plane_piece;
 mod refinement_matrix;
@@ -112,6 +114,7 @@ pub use knot_removal::{KnotRemoval, NurbsKnotRemoval};
 pub use knot_rule::KnotRule;
 pub use line_intersection::LineIntersection;
 pub use nurbs::Nurbs;
+pub use offset::Offset;
 pub use refinement_matrix::refinement_matrix;
 pub use removal_within::{KnotReduction, NurbsKnotReduction};
 pub use subdivision::{subdivide_polygon, subdivision_mask};
