@@ -7,6 +7,9 @@ use crate::app::painter::color32;
 use crate::document::ShapeChange;
 use crate::figure::composition::short_number;
 
+/// The green of every palette.
+const GREEN: usize = 2;
+
 /// Shows the line; `workspace` stands at its right end.
 pub(crate) fn show(lab: &Lab, workspace: &str, ui: &mut Ui) {
     ui.horizontal(|ui| {
@@ -22,7 +25,7 @@ pub(crate) fn show(lab: &Lab, workspace: &str, ui: &mut Ui) {
             match (said, badge(&lab.shape)) {
                 (Some(sentence), Some((text, exact))) => {
                     let theme = &lab.theme;
-                    let color = color32(if exact { theme.accent } else { theme.warning });
+                    let color = color32(if exact { theme.basis_color(GREEN) } else { theme.warning });
                     let frame = Frame::NONE
                         .fill(color.gamma_multiply(0.16))
                         .corner_radius(4)
@@ -62,7 +65,9 @@ fn badge(shape: &ShapeChange) -> Option<(String, bool)> {
             (format!("changed by at most {}", brief(deviation)), false)
         }
         ShapeChange::Changed { deviation: None, .. } => ("changed, not measured".to_owned(), false),
-        ShapeChange::Approximated { deviation } => (format!("within {deviation:.1e}, measured"), false),
+        ShapeChange::Approximated { deviation } => {
+            (format!("new curve within {deviation:.1e}, measured"), false)
+        }
     })
 }
 

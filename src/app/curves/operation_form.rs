@@ -95,10 +95,10 @@ impl OperationForm {
         let mut open = true;
         let mut wanted = None;
         Window::new(title)
-            .id(eframe::egui::Id::unique("operation form"))
+            .id(eframe::egui::Id::unique(title))
             .open(&mut open)
             .collapsible(false)
-            .resizable(false)
+            .auto_sized()
             .pivot(Align2::LEFT_TOP)
             .default_pos(ui.max_rect().left_top() + vec2(16.0, 44.0))
             .show(ui.ctx(), |ui| {

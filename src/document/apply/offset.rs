@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::document::apply::{check_point_count, objects};
 use crate::document::contents::Document;
+use crate::document::display::PointLabels;
 use crate::document::edit_error::EditError;
 use crate::document::object::{Content, Object, ObjectId};
 use crate::document::outcome::{Outcome, ShapeChange};
@@ -19,10 +20,11 @@ pub(super) fn add(
     let offset = curve.offset(distance, tolerance)?;
     check_point_count(offset.curve.points().len())?;
     let mut display = display.clone();
-    // Next to the original, and hardly ever with few points.
+    // Next to the original, and hardly ever with few points: the curve alone is shown.
     display.color = display.color.wrapping_add(1) % 8;
-    display.polygon = false;
-    display.points = display.points && offset.curve.points().len() <= 40;
+    (display.polygon, display.points, display.knots, display.comb) = (false, false, false, false);
+    (display.construction, display.hull, display.osculating_circle) = (false, false, false);
+    display.labels = PointLabels::None;
     let made = objects::duplicate(document, object)?;
     for &id in &made.created {
         let at = document.position(id).ok_or(EditError::NoSuchObject { object: id })?;
