@@ -294,7 +294,7 @@ fn an_offset_is_a_new_curve_with_its_measured_deviation() {
     let outcome = done(&mut history, Edit::OffsetCurve { object: CURVE, distance: -0.5, tolerance: 1e-4 });
     match outcome.shape {
         ShapeChange::Approximated { deviation } => {
-            assert!(deviation > 0.0 && deviation <= 1e-4, "{deviation}")
+            assert!(deviation > 0.0 && deviation <= 1e-4, "{deviation}");
         }
         other => panic!("{other:?}"),
     }

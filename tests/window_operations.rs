@@ -230,7 +230,7 @@ fn bezier_form_ends_reverse_refine_and_degree_keep_the_shape() {
     let space = SplineSpace::new(3, (0..11).map(f64::from).collect()).unwrap();
     let simple =
         Nurbs::new(space, wave().points().to_vec(), vec![1.0, 2.0, 1.0, 0.5, 1.0, 1.0, 3.0]).unwrap();
-    let mut window = window(&[simple.clone()]);
+    let mut window = window(std::slice::from_ref(&simple));
     for (pressed, points) in [(Key::Z, 13), (Key::I, 7), (Key::R, 11), (Key::E, 11), (Key::Q, 7)] {
         key(&mut window, pressed);
         let new = curve(&window);
@@ -296,7 +296,7 @@ fn the_whole_curve_is_moved_turned_scaled_and_mirrored_by_numbers() {
 #[test]
 fn an_offset_stands_at_its_distance_and_one_that_has_a_cusp_is_refused() {
     let circle = Nurbs::circle(DVec2::ZERO, 2.0).unwrap();
-    let mut window = window(&[circle.clone()]);
+    let mut window = window(std::slice::from_ref(&circle));
     key(&mut window, Key::Y);
     fill(&mut window, "Distance", "-1");
     fill(&mut window, "Tolerance", "0.001");
