@@ -57,6 +57,28 @@ pub enum Tool {
     AddPoint,
 }
 
+/// What the drawing tool makes of the clicks.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum DrawMode {
+    /// Control points.
+    #[default]
+    Points,
+    /// A cubic spline through the points.
+    Through,
+    /// A stroke by free hand, fitted by a spline.
+    Stroke,
+    /// A circle from its centre and a point of its rim.
+    Circle,
+    /// A circular arc through three points.
+    Arc,
+    /// An ellipse from its centre and two half axes.
+    Ellipse,
+    /// A conic arc from three control points and the weight of the middle one.
+    Conic,
+    /// The conic through five points.
+    ConicFive,
+}
+
 /// Kind of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tone {
@@ -86,6 +108,36 @@ pub struct StepperState {
     pub playing: bool,
     /// Seconds since the last frame while playing.
     pub elapsed: f64,
+}
+
+/// What hands do to knots, and what the knot line shows.
+#[derive(Clone, Debug)]
+pub struct KnotHands {
+    /// Whether the curve stays, nearly, while knots move; else the control points stay.
+    pub keep_curve: bool,
+    /// Largest deviation when knots are removed that the curve does not need.
+    pub tolerance: f64,
+    /// The builder of one B-spline, if it is shown in place of the basis.
+    pub builder: Option<BasisBuilder>,
+}
+
+impl Default for KnotHands {
+    fn default() -> Self {
+        Self { keep_curve: false, tolerance: 0.01, builder: None }
+    }
+}
+
+/// One B-spline as two of lower degree.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BasisBuilder {
+    /// Index of the B-spline.
+    pub spline: usize,
+    /// Degree of what is taken apart.
+    pub degree: usize,
+    /// Which of that degree, counted from the left.
+    pub part: usize,
+    /// From 0, both parts on the axis, to 1, one upon the other.
+    pub slide: f64,
 }
 
 /// The lesson that is open.
@@ -136,12 +188,24 @@ pub struct Lab {
     pub entry_partners: Vec<usize>,
     /// The tool.
     pub tool: Tool,
+    /// What the drawing tool draws.
+    pub draw_mode: DrawMode,
+    /// Points of an unfinished drawing that can be undone and redone.
+    pub drawn: (usize, usize),
+    /// How near a spline must come to a drawn stroke, in pixels.
+    pub stroke_tolerance: f64,
+    /// Whether the selected curve has handles on itself, the edit points.
+    pub edit_points: bool,
+    /// Whether the selected curve has handles for the ratios of neighbouring weights.
+    pub weight_points: bool,
     /// Colours and sizes.
     pub theme: Theme,
     /// Page of the right panel.
     pub side: SidePage,
     /// The stepper panel.
     pub stepper: StepperState,
+    /// The knot line.
+    pub knots: KnotHands,
     /// The open lesson, if any.
     pub lesson: Option<LessonState>,
     /// What the last operation did to the shape, as a sentence for the status line.
@@ -173,9 +237,15 @@ impl Lab {
             hovering: Hovered::Nothing,
             entry_partners: Vec::new(),
             tool: Tool::Select,
+            draw_mode: DrawMode::Points,
+            drawn: (0, 0),
+            stroke_tolerance: 2.5,
+            edit_points: false,
+            weight_points: false,
             theme: Theme::light(),
             side: SidePage::Inspector,
             stepper: StepperState::default(),
+            knots: KnotHands::default(),
             lesson: None,
             shape_note: None,
             messages: Vec::new(),
@@ -308,6 +378,16 @@ impl Lab {
             self.view.stepper = kind;
             self.stepper = StepperState { open: self.stepper.open, ..StepperState::default() };
         }
+    }
+
+    /// What Undo would take back: a point of the drawing under way, else the last step.
+    pub fn undo_name(&self) -> Option<&str> {
+        if self.drawn.0 > 0 { Some("Drawn point") } else { self.history.undo_name() }
+    }
+
+    /// What Redo would do again.
+    pub fn redo_name(&self) -> Option<&str> {
+        if self.drawn.1 > 0 { Some("Drawn point") } else { self.history.redo_name() }
     }
 
     /// Says something that was done.

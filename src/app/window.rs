@@ -280,6 +280,7 @@ impl LabApp {
             Command::PreviousAlgorithm => turn_algorithm(lab, StepperKind::ALL.len() - 1),
             Command::NextLesson => turn_page(lab, 1),
             Command::PreviousLesson => turn_page(lab, -1),
+            Command::BackToExample => files::back_to_example(lab),
             Command::Palette => self.palette.open(),
             Command::ShortcutSheet => self.shortcut_sheet.toggle(),
             _ => {}

@@ -40,7 +40,7 @@
 //! | typed formulas | `formula` |
 //! | linear systems | `linear_system` |
 //! | B.1 Degree elevation and reduction | `spline_curve/{degree, degree_reduction, uniform_reduction}` |
-//! | B.2 Knot removal | `spline_curve/{knot_removal, removal_within}` |
+//! | B.2 Knot removal, other knots | `spline_curve/{knot_removal, removal_within, nearest_spline, knot_rule}` |
 //! | B.3 Measured deviation | `spline_curve/{deviation, hausdorff}` |
 //! | B.4 Arc length | `spline_curve/arc_length`, `bezier/arc_length` |
 //! | B.5 Closest points | `spline_curve/{closest_point, foot_points}`, `rational_bezier/closest_point`, `bounding_tree` |
@@ -48,6 +48,7 @@
 //! | B.7 Inflections, vertices, boxes, torsion | `spline_curve/{curvature, inflections, vertices, tight_box}`, `bezier/{curvature, inflections}` |
 //! | B.8 Rational tessellation | `rational_bezier/chord_bound`, `spline_curve/chord_polygon` |
 //! | B.12 Circles, arcs and conics | `rational_bezier/{circle, conic_arc}` |
+//! | B.16 Fitting a stroke | `spline_curve/{fitting, fitting_stroke}` |
 //!
 //! # Notation and conventions
 //!

@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use crate::core::approximation::ApproximationError;
 use crate::core::bspline::SplineError;
 use crate::core::surface::{MeshError, SurfaceError};
 use crate::document::edit::{MAX_EDIT_DEGREE, short};
@@ -65,6 +66,27 @@ pub enum EditError {
         low: f64,
         /// The larger limit.
         high: f64,
+    },
+    /// A curve cannot be kept over another parameter interval.
+    #[error(
+        "the curve can be kept over its parameter interval [{}, {}] only, not over [{}, {}]",
+        short(*.left), short(*.right), short(*.low), short(*.high)
+    )]
+    IntervalChanged {
+        /// Left end of the interval of the curve.
+        left: f64,
+        /// Its right end.
+        right: f64,
+        /// Left end of the interval of the new knots.
+        low: f64,
+        /// Its right end.
+        high: f64,
+    },
+    /// An edit does not change knots alone, so that there is no curve to keep.
+    #[error("{name:?} does not change knots alone")]
+    NoKnotEdit {
+        /// The name of the edit.
+        name: String,
     },
     /// The degree lies outside the window's range.
     #[error("degree {degree} lies outside 1 to {MAX_EDIT_DEGREE}")]
@@ -130,6 +152,9 @@ pub enum EditError {
     /// Points, weights or knots do not make a curve.
     #[error(transparent)]
     Spline(#[from] SplineError),
+    /// Points of the curve do not determine it.
+    #[error(transparent)]
+    Approximation(#[from] ApproximationError),
     /// Points, weights or knots do not make a surface.
     #[error(transparent)]
     Surface(#[from] SurfaceError),
@@ -148,6 +173,8 @@ impl EditError {
             Self::NoSuchKnot { .. } => "NoSuchKnot",
             Self::NotAKnot { .. } => "NotAKnot",
             Self::KnotBlocked { .. } => "KnotBlocked",
+            Self::IntervalChanged { .. } => "IntervalChanged",
+            Self::NoKnotEdit { .. } => "NoKnotEdit",
             Self::DegreeOutsideWindow { .. } => "DegreeOutsideWindow",
             Self::NoSuchPosition { .. } => "NoSuchPosition",
             Self::NonFinite { .. } => "NonFinite",
@@ -156,6 +183,7 @@ impl EditError {
             Self::BadName { .. } => "BadName",
             Self::InBatch { source, .. } => source.name(),
             Self::Spline(error) => error.name(),
+            Self::Approximation(error) => error.name(),
             Self::Surface(error) => error.name(),
             Self::Mesh(error) => error.name(),
         }

@@ -27,11 +27,29 @@ impl Command {
             Self::Escape => (NONE, Key::Escape),
             Self::SelectTool => (NONE, Key::V),
             Self::DrawTool => (NONE, Key::D),
+            Self::DrawThrough => (COMMAND, Key::Num2),
+            Self::DrawStroke => (COMMAND, Key::Num3),
+            Self::DrawCircle => (COMMAND, Key::Num4),
+            Self::DrawArc => (COMMAND, Key::Num5),
+            Self::DrawEllipse => (COMMAND, Key::Num6),
+            Self::DrawConic => (COMMAND, Key::Num7),
+            Self::DrawConicFive => (COMMAND, Key::Num8),
+            Self::ToggleEditPoints => (NONE, Key::X),
+            Self::ToggleWeightPoints => (NONE, Key::W),
+            Self::AlignX => (Modifiers::ALT, Key::X),
+            Self::AlignY => (Modifiers::ALT, Key::Y),
+            Self::AlignGrid => (Modifiers::ALT, Key::G),
+            Self::Distribute => (Modifiers::ALT, Key::D),
             Self::SelectDataTool => (NONE, Key::V),
             Self::AddPointTool => (NONE, Key::A),
             Self::CycleErrorPlot => (NONE, Key::L),
             Self::InsertKnot => (NONE, Key::K),
             Self::RemoveKnot => (Modifiers::SHIFT, Key::K),
+            Self::NextKnot => (NONE, Key::Period),
+            Self::PreviousKnot => (NONE, Key::Comma),
+            Self::ToggleKeepCurve => (Modifiers::SHIFT, Key::C),
+            Self::ToggleBuilder => (Modifiers::SHIFT, Key::B),
+            Self::RemoveKnotsWithin => (Modifiers::SHIFT, Key::Delete),
             Self::RefineUniformly => (NONE, Key::R),
             Self::ElevateDegree => (NONE, Key::E),
             Self::ReduceDegree => (Modifiers::SHIFT, Key::E),
@@ -78,6 +96,7 @@ impl Command {
             Self::PreviousAlgorithm => (COMMAND, Key::OpenBracket),
             Self::NextLesson => (NONE, Key::PageDown),
             Self::PreviousLesson => (NONE, Key::PageUp),
+            Self::BackToExample => (NONE, Key::Home),
             Self::Palette => (COMMAND, Key::P),
             Self::ShortcutSheet => (NONE, Key::F1),
             Self::ImportMesh
@@ -94,6 +113,11 @@ impl Command {
             | Self::SampleFunction
             | Self::FirstScene
             | Self::Reverse
+            | Self::UniformKnots
+            | Self::EndInterpolatingKnots
+            | Self::ChordLengthKnots
+            | Self::CentripetalKnots
+            | Self::AveragedKnots
             | Self::ResetWeights => return None,
         };
         Some(KeyboardShortcut::new(modifiers, key))

@@ -79,6 +79,7 @@ impl Command {
             | Self::ToggleHull
             | Self::ToggleCircle
             | Self::ToggleKnotLine
+            | Self::ToggleBuilder
             | Self::ExportFrames
             | Self::StepperPlay
             | Self::StepForward
@@ -113,12 +114,34 @@ impl Command {
             | Self::DrawTool
             | Self::InsertKnot
             | Self::RemoveKnot
+            | Self::RemoveKnotsWithin
+            | Self::NextKnot
+            | Self::PreviousKnot
+            | Self::ToggleKeepCurve
+            | Self::UniformKnots
+            | Self::EndInterpolatingKnots
+            | Self::ChordLengthKnots
+            | Self::CentripetalKnots
+            | Self::AveragedKnots
             | Self::RefineUniformly
             | Self::ElevateDegree
             | Self::ReduceDegree
             | Self::ToggleClosed
             | Self::Reverse
-            | Self::ResetWeights => Menu::Curve,
+            | Self::ResetWeights
+            | Self::DrawThrough
+            | Self::DrawStroke
+            | Self::DrawCircle
+            | Self::DrawArc
+            | Self::DrawEllipse
+            | Self::DrawConic
+            | Self::DrawConicFive
+            | Self::ToggleEditPoints
+            | Self::ToggleWeightPoints
+            | Self::AlignX
+            | Self::AlignY
+            | Self::AlignGrid
+            | Self::Distribute => Menu::Curve,
             Self::LevelUp
             | Self::LevelDown
             | Self::ToggleNet
@@ -153,7 +176,8 @@ impl Command {
             | Self::NextAlgorithm
             | Self::PreviousAlgorithm
             | Self::NextLesson
-            | Self::PreviousLesson => Menu::Lesson,
+            | Self::PreviousLesson
+            | Self::BackToExample => Menu::Lesson,
             Self::Palette | Self::ShortcutSheet => Menu::Help,
             _ => Menu::View,
         }

@@ -51,6 +51,20 @@ pub enum Command {
     SelectTool,
     /// The tool that draws a new curve.
     DrawTool,
+    /// A cubic spline through the points clicked.
+    DrawThrough,
+    /// A stroke by free hand, fitted by a spline.
+    DrawStroke,
+    /// A circle from centre and rim.
+    DrawCircle,
+    /// A circular arc through three points.
+    DrawArc,
+    /// An ellipse from centre and half axes.
+    DrawEllipse,
+    /// A conic arc from three points and a weight.
+    DrawConic,
+    /// The conic through five points.
+    DrawConicFive,
     /// The tool that selects and drags data and knots.
     SelectDataTool,
     /// The tool that adds data.
@@ -63,6 +77,26 @@ pub enum Command {
     InsertKnot,
     /// Removes the selected knot.
     RemoveKnot,
+    /// Removes all knots that a tolerance does not need.
+    RemoveKnotsWithin,
+    /// Selects the next knot.
+    NextKnot,
+    /// Selects the knot before.
+    PreviousKnot,
+    /// While knots move: the control points stay, or the curve.
+    ToggleKeepCurve,
+    /// Equally distant simple knots.
+    UniformKnots,
+    /// Equally distant knots with n-fold ends.
+    EndInterpolatingKnots,
+    /// Knots spaced like the control points.
+    ChordLengthKnots,
+    /// Knots spaced like the square roots of the chords.
+    CentripetalKnots,
+    /// Averages of the chord lengths.
+    AveragedKnots,
+    /// One B-spline as two of lower degree, in the knot line.
+    ToggleBuilder,
     /// Inserts a knot in the middle of every interval.
     RefineUniformly,
     /// Raises the degree, shape kept.
@@ -75,6 +109,18 @@ pub enum Command {
     Reverse,
     /// All weights 1.
     ResetWeights,
+    /// Handles on the curve on or off.
+    ToggleEditPoints,
+    /// Handles for ratios of weights on or off.
+    ToggleWeightPoints,
+    /// Selected points to one x.
+    AlignX,
+    /// Selected points to one y.
+    AlignY,
+    /// Selected points to the grid.
+    AlignGrid,
+    /// Selected points in equal steps.
+    Distribute,
     /// One subdivision step more.
     LevelUp,
     /// One subdivision step fewer.
@@ -171,6 +217,8 @@ pub enum Command {
     NextLesson,
     /// Previous lesson.
     PreviousLesson,
+    /// The lesson's scene as it was at first.
+    BackToExample,
     /// Finds a command by name.
     Palette,
     /// All shortcuts.
@@ -179,7 +227,7 @@ pub enum Command {
 
 impl Command {
     /// All commands, in the order of menus, palette and sheet.
-    pub const ALL: [Self; 83] = [
+    pub const ALL: [Self; 107] = [
         Self::New,
         Self::Open,
         Self::Save,
@@ -201,18 +249,41 @@ impl Command {
         Self::Escape,
         Self::SelectTool,
         Self::DrawTool,
+        Self::DrawThrough,
+        Self::DrawStroke,
+        Self::DrawCircle,
+        Self::DrawArc,
+        Self::DrawEllipse,
+        Self::DrawConic,
+        Self::DrawConicFive,
         Self::SelectDataTool,
         Self::AddPointTool,
         Self::SampleFunction,
         Self::CycleErrorPlot,
         Self::InsertKnot,
         Self::RemoveKnot,
+        Self::RemoveKnotsWithin,
+        Self::NextKnot,
+        Self::PreviousKnot,
+        Self::ToggleKeepCurve,
+        Self::UniformKnots,
+        Self::EndInterpolatingKnots,
+        Self::ChordLengthKnots,
+        Self::CentripetalKnots,
+        Self::AveragedKnots,
+        Self::ToggleBuilder,
         Self::RefineUniformly,
         Self::ElevateDegree,
         Self::ReduceDegree,
         Self::ToggleClosed,
         Self::Reverse,
         Self::ResetWeights,
+        Self::ToggleEditPoints,
+        Self::ToggleWeightPoints,
+        Self::AlignX,
+        Self::AlignY,
+        Self::AlignGrid,
+        Self::Distribute,
         Self::LevelUp,
         Self::LevelDown,
         Self::ToggleNet,
@@ -261,6 +332,7 @@ impl Command {
         Self::PreviousAlgorithm,
         Self::NextLesson,
         Self::PreviousLesson,
+        Self::BackToExample,
         Self::Palette,
         Self::ShortcutSheet,
     ];

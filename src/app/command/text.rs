@@ -34,6 +34,40 @@ impl Command {
             Self::DrawTool => {
                 ("Draw a curve", "Click control points; Enter or double click ends, Backspace drops the last")
             }
+            Self::DrawThrough => (
+                "Draw through points",
+                "Click points that a cubic spline runs through; Enter ends, a click on the first point closes",
+            ),
+            Self::DrawStroke => {
+                ("Draw by free hand", "Press and draw; a spline is fitted within the tolerance")
+            }
+            Self::DrawCircle => {
+                ("Draw a circle", "Click the centre and a point of the rim, or drag from one to the other")
+            }
+            Self::DrawArc => ("Draw a circular arc", "Click its start, a point on the way, and its end"),
+            Self::DrawEllipse => (
+                "Draw an ellipse",
+                "Click the centre, the end of one half axis, and how far the other reaches",
+            ),
+            Self::DrawConic => (
+                "Draw a conic with a weight",
+                "Click three control points, then drag or type the weight of the middle one",
+            ),
+            Self::DrawConicFive => ("Draw a conic through five points", "Click five points"),
+            Self::ToggleEditPoints => {
+                ("Edit points on the curve", "Handles on the curve; dragging one keeps the others in place")
+            }
+            Self::ToggleWeightPoints => {
+                ("Weight points", "Handles on the edges for the ratio of neighbouring weights")
+            }
+            Self::AlignX => ("Align to one x", "Put the selected points above each other, at their mean"),
+            Self::AlignY => ("Align to one y", "Put the selected points beside each other, at their mean"),
+            Self::AlignGrid => {
+                ("Align to the grid", "Put the selected points on the nearest crossings of the grid")
+            }
+            Self::Distribute => {
+                ("Distribute evenly", "Put the selected points in equal steps between the first and the last")
+            }
             Self::SelectDataTool => ("Select data", "Select and drag data and knots"),
             Self::AddPointTool => ("Add points", "Click where data are to be"),
             Self::SampleFunction => {
@@ -44,6 +78,34 @@ impl Command {
             Self::RemoveKnot => {
                 ("Remove knot", "Remove one copy of the selected knot; the deviation is measured")
             }
+            Self::RemoveKnotsWithin => (
+                "Remove superfluous knots",
+                "Remove as many knots as the tolerance of the knot line allows; the deviation is certified",
+            ),
+            Self::NextKnot => ("Next knot", "Select the next knot; arrow keys move it"),
+            Self::PreviousKnot => ("Previous knot", "Select the knot before; arrow keys move it"),
+            Self::ToggleKeepCurve => (
+                "Keep the curve",
+                "While knots move: keep the curve, with certified deviation, or the control points",
+            ),
+            Self::UniformKnots => ("Uniform knots", "Equal distances, simple knots"),
+            Self::EndInterpolatingKnots => {
+                ("End-interpolating knots", "Equal distances, n-fold ends; for a closed curve an n-fold seam")
+            }
+            Self::ChordLengthKnots => {
+                ("Chord length knots", "Distances like those of the active control points")
+            }
+            Self::CentripetalKnots => {
+                ("Centripetal knots", "Distances like the square roots of those of the control points")
+            }
+            Self::AveragedKnots => (
+                "Averaged knots",
+                "Averages of the chord lengths, so that each control point has its Greville abscissa near its own",
+            ),
+            Self::ToggleBuilder => (
+                "Basis builder",
+                "One B-spline as two of lower degree times linear factors, in the knot line",
+            ),
             Self::RefineUniformly => {
                 ("Refine all intervals", "Insert a knot in the middle of every interval; the shape is kept")
             }
@@ -112,6 +174,10 @@ impl Command {
             Self::PreviousAlgorithm => ("Previous algorithm", "Step through the algorithm before"),
             Self::NextLesson => ("Next lesson", "Open the next lesson of the course"),
             Self::PreviousLesson => ("Previous lesson", "Open the lesson before"),
+            Self::BackToExample => (
+                "Back to the example",
+                "Show the lesson's scene as it was at first; Ctrl+Z brings back your work",
+            ),
             Self::Palette => ("Find a command…", "Type a few letters of what you want to do"),
             Self::ShortcutSheet => ("Shortcuts", "All keys and what the mouse does"),
         }

@@ -1,14 +1,17 @@
 //! The Curves workspace: a canvas on which spline curves are drawn, dragged and looked at.
 
+mod align;
 mod canvas;
 mod commands;
 mod context_menu;
+mod draw_shapes;
 mod draw_tool;
 mod gesture;
 mod handles;
 mod hit;
 mod step_hands;
 mod tools;
+mod weight_handles;
 
 use eframe::egui;
 
@@ -39,7 +42,7 @@ impl Workspace for Curves {
         if open(crate::app::KNOT_LINE) {
             egui::Panel::bottom("knot line")
                 .resizable(true)
-                .default_size(170.0)
+                .default_size(190.0)
                 .size_range(110.0..=420.0)
                 .show(ui, |ui| crate::app::knot_line::show(lab, ui));
         }
@@ -54,7 +57,7 @@ impl Workspace for Curves {
     }
 
     fn execute(&mut self, command: Command, lab: &mut Lab) -> bool {
-        self.canvas.execute(command, lab)
+        crate::app::knot_line::execute(command, lab) || self.canvas.execute(command, lab)
     }
 
     fn status(&self, lab: &Lab) -> String {
@@ -62,7 +65,8 @@ impl Workspace for Curves {
     }
 
     fn handles(&self, lab: &Lab) -> Vec<(String, egui::Pos2)> {
-        handles::named(lab)
+        self.canvas
+            .named(lab)
             .into_iter()
             .filter_map(|(name, at)| Some((name, self.canvas.screen_from_world(at, lab)?)))
             .collect()

@@ -29,7 +29,7 @@ use job::Job;
 use keeper::Keeper;
 use question::{Problem, Question, Reply};
 
-pub(crate) use lessons::{back_to_document, open_lesson, restart_lesson};
+pub(crate) use lessons::{back_to_document, back_to_example, open_lesson};
 
 /// What is to be done once nothing can be lost any more.
 #[derive(Debug)]

@@ -253,8 +253,12 @@ fn the_own_document_and_work_on_a_lesson_wait_for_each_other() {
     assert!(lab.history.undo_name().is_some(), "its undo");
     open_lesson(lab, 0);
     assert_eq!(lab.history.document(), &worked_on, "the work on the lesson");
-    restart_lesson(lab);
+    back_to_example(lab);
     assert_eq!(lab.history.document(), &lesson, "the lesson from its beginning");
+    assert_eq!(lab.history.undo_name(), Some("Back to the example"), "one step");
+    lab.history.undo();
+    assert_eq!(lab.history.document(), &worked_on, "and the work on it is not lost");
+    back_to_example(lab);
     open_lesson(lab, usize::MAX);
     assert_eq!(lab.history.document(), &lesson, "there is no such lesson");
 }
