@@ -23,6 +23,8 @@ pub(crate) fn key_text(command: Command, ctx: &Context) -> Option<String> {
     let sign = match key {
         "OpenBracket" => "[",
         "CloseBracket" => "]",
+        "Period" => ".",
+        "Comma" => ",",
         "PageUp" => "Page up",
         "PageDown" => "Page down",
         other => other,
@@ -42,6 +44,7 @@ pub(crate) fn is_possible(command: Command, lab: &Lab) -> bool {
         Command::BackToExample => lab.lesson.is_some(),
         Command::Undo => lab.history.undo_name().is_some(),
         Command::Redo => lab.history.redo_name().is_some(),
+        Command::ExportFrames => lab.curve().is_some(),
         Command::ExportFigure => !lab.history.document().is_empty(),
         Command::Delete | Command::Duplicate => lab.selection.object.is_some(),
         Command::RemoveKnot => lab.curve().is_some() && lab.selection.knot.is_some(),
@@ -64,6 +67,15 @@ pub(crate) fn is_possible(command: Command, lab: &Lab) -> bool {
         | Command::RaiseElementDegree
         | Command::LowerElementDegree => problem(lab).is_some(),
         Command::InsertKnot
+        | Command::RemoveKnotsWithin
+        | Command::NextKnot
+        | Command::PreviousKnot
+        | Command::UniformKnots
+        | Command::EndInterpolatingKnots
+        | Command::ChordLengthKnots
+        | Command::CentripetalKnots
+        | Command::AveragedKnots
+        | Command::ToggleBuilder
         | Command::RefineUniformly
         | Command::ToggleClosed
         | Command::Reverse
@@ -75,7 +87,9 @@ pub(crate) fn is_possible(command: Command, lab: &Lab) -> bool {
         | Command::ToggleCircle
         | Command::StepperPlay
         | Command::StepForward
-        | Command::StepBack => lab.curve().is_some(),
+        | Command::StepBack
+        | Command::NextAlgorithm
+        | Command::PreviousAlgorithm => lab.curve().is_some(),
         _ => true,
     }
 }
@@ -113,6 +127,8 @@ pub(crate) fn is_on(command: Command, lab: &Lab) -> Option<bool> {
         Command::ToggleLeftPanel => panel(LEFT_PANEL),
         Command::ToggleRightPanel => panel(RIGHT_PANEL),
         Command::ToggleKnotLine => panel(KNOT_LINE),
+        Command::ToggleKeepCurve => lab.knots.keep_curve,
+        Command::ToggleBuilder => lab.knots.builder.is_some(),
         Command::LookLight => lab.theme.name == "light",
         Command::LookDark => lab.theme.name == "dark",
         Command::LookPresentation => lab.theme.name == "presentation",

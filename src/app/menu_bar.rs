@@ -48,6 +48,8 @@ fn starts_group(command: Command) -> bool {
             | Command::Delete
             | Command::SelectAll
             | Command::InsertKnot
+            | Command::UniformKnots
+            | Command::RefineUniformly
             | Command::ElevateDegree
             | Command::ImportMesh
             | Command::ToggleNet

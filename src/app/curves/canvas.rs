@@ -10,11 +10,12 @@ use crate::app::curves::draw_tool::Drawing;
 use crate::app::curves::gesture::Gesture;
 use crate::app::curves::handles;
 use crate::app::curves::hit::{Target, target_at};
+use crate::app::curves::step_hands::{self, StepHands};
 use crate::app::hands;
 use crate::app::lab::{Hovered, Lab, Tool};
 use crate::app::painter::{color32, paint_note, paint_picture, screen_from_world, world_from_screen};
 use crate::document::{Edit, ObjectId};
-use crate::figure::composition::{Composition, GRID, SchemeReveal, compose_with};
+use crate::figure::composition::{Composition, GRID, StepDrawing, compose_with};
 use crate::figure::picture::Viewport;
 
 /// Room around the objects when they are fitted, in pt.
@@ -29,6 +30,7 @@ pub(crate) struct Canvas {
     opened: u64,
     gesture: Option<Gesture>,
     drawing: Drawing,
+    step_hands: StepHands,
     menu_target: Target,
     panning: bool,
     wheel: Option<WheelWeight>,
@@ -66,10 +68,13 @@ impl Canvas {
         let viewport = viewport(lab);
         let pointer = ui.input(|input| input.pointer.hover_pos()).filter(|_| response.contains_pointer());
         let target = pointer.map_or(Target::Nothing, |pointer| target_at(lab, &viewport, rect, pointer));
-        self.use_hands(lab, &response, &viewport, rect, target, ui);
+        if !self.step_hands.drag(lab, &response, &viewport, rect, ui) {
+            self.use_hands(lab, &response, &viewport, rect, target, ui);
+        }
         self.turn_wheel_on_weight(lab, target, ui);
         commands::nudge(lab, &viewport, ui);
         hover(lab, target);
+        step_hands::hover(lab, target, pointer, &viewport, rect);
         self.paint(lab, &viewport, rect, pointer, ui);
         handles::announce(lab, &viewport, rect, ui);
         self.point_cursor(lab, target, pointer, ui);
@@ -223,10 +228,11 @@ impl Canvas {
 
     fn paint(&self, lab: &Lab, viewport: &Viewport, rect: Rect, pointer: Option<Pos2>, ui: &Ui) {
         let painter = ui.painter_at(rect);
-        let choices = Composition { reveal: reveal(lab), transparent: false };
+        let choices = Composition { step: step(lab), transparent: false };
         let picture = compose_with(lab.history.document(), &lab.view, &lab.theme, viewport, &choices);
         paint_picture(&picture, viewport, rect, &painter);
         handles::paint(lab, viewport, rect, &painter);
+        self.step_hands.paint(lab, viewport, rect, &painter, ui);
         if lab.tool == Tool::Draw {
             self.drawing.paint(pointer, lab, viewport, rect, &painter);
         }
@@ -297,16 +303,13 @@ fn hint(lab: &Lab) -> Option<&'static str> {
     )
 }
 
-/// The part of the scheme that the stepper shows.
-fn reveal(lab: &Lab) -> Option<(ObjectId, SchemeReveal)> {
+/// What the stepper shows.
+fn step(lab: &Lab) -> Option<(ObjectId, StepDrawing)> {
     if !lab.stepper.open {
         return None;
     }
     let (object, stepper) = (lab.selection.object?, lab.scheme()?);
-    let frames = stepper.frames();
-    let frame = frames.get(lab.stepper.frame)?;
-    let shown = frames[..=lab.stepper.frame].iter().flat_map(|frame| frame.reveals.iter().copied()).collect();
-    Some((object, SchemeReveal { shown, highlighted: frame.highlights.iter().copied().collect() }))
+    Some((object, stepper.drawing(lab.stepper.frame)))
 }
 
 fn hover(lab: &mut Lab, target: Target) {
