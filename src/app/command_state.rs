@@ -42,9 +42,9 @@ pub(crate) fn is_possible(command: Command, lab: &Lab) -> bool {
     }
     match command {
         Command::BackToExample => lab.lesson.is_some(),
-        Command::Undo => lab.history.undo_name().is_some(),
-        Command::Redo => lab.history.redo_name().is_some(),
         Command::ExportFrames => lab.curve().is_some(),
+        Command::Undo => lab.undo_name().is_some(),
+        Command::Redo => lab.redo_name().is_some(),
         Command::ExportFigure => !lab.history.document().is_empty(),
         Command::Delete | Command::Duplicate => lab.selection.object.is_some(),
         Command::RemoveKnot => lab.curve().is_some() && lab.selection.knot.is_some(),
@@ -66,8 +66,10 @@ pub(crate) fn is_possible(command: Command, lab: &Lab) -> bool {
         | Command::CoarsenElements
         | Command::RaiseElementDegree
         | Command::LowerElementDegree => problem(lab).is_some(),
-        Command::InsertKnot
-        | Command::RemoveKnotsWithin
+        Command::AlignX | Command::AlignY => lab.curve().is_some() && lab.selection.points.len() > 1,
+        Command::AlignGrid => lab.curve().is_some() && !lab.selection.points.is_empty(),
+        Command::Distribute => lab.curve().is_some() && lab.selection.points.len() > 2,
+        Command::RemoveKnotsWithin
         | Command::NextKnot
         | Command::PreviousKnot
         | Command::UniformKnots
@@ -76,6 +78,9 @@ pub(crate) fn is_possible(command: Command, lab: &Lab) -> bool {
         | Command::CentripetalKnots
         | Command::AveragedKnots
         | Command::ToggleBuilder
+        | Command::ToggleEditPoints
+        | Command::ToggleWeightPoints
+        | Command::InsertKnot
         | Command::RefineUniformly
         | Command::ToggleClosed
         | Command::Reverse
@@ -115,7 +120,16 @@ pub(crate) fn is_on(command: Command, lab: &Lab) -> Option<bool> {
         Command::ToggleCells => field(|display| display.cells),
         Command::ToggleQuadrature => field(|display| display.quadrature),
         Command::SelectTool => lab.tool == Tool::Select,
-        Command::DrawTool => lab.tool == Tool::Draw,
+        Command::DrawTool
+        | Command::DrawThrough
+        | Command::DrawStroke
+        | Command::DrawCircle
+        | Command::DrawArc
+        | Command::DrawEllipse
+        | Command::DrawConic
+        | Command::DrawConicFive => lab.tool == Tool::Draw && lab.draw_mode.command() == command,
+        Command::ToggleEditPoints => lab.edit_points,
+        Command::ToggleWeightPoints => lab.weight_points,
         Command::SelectDataTool => lab.tool != Tool::AddPoint,
         Command::AddPointTool => lab.tool == Tool::AddPoint,
         Command::ToggleGrid => panel(GRID),

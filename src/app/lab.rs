@@ -57,6 +57,28 @@ pub enum Tool {
     AddPoint,
 }
 
+/// What the drawing tool makes of the clicks.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum DrawMode {
+    /// Control points.
+    #[default]
+    Points,
+    /// A cubic spline through the points.
+    Through,
+    /// A stroke by free hand, fitted by a spline.
+    Stroke,
+    /// A circle from its centre and a point of its rim.
+    Circle,
+    /// A circular arc through three points.
+    Arc,
+    /// An ellipse from its centre and two half axes.
+    Ellipse,
+    /// A conic arc from three control points and the weight of the middle one.
+    Conic,
+    /// The conic through five points.
+    ConicFive,
+}
+
 /// Kind of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tone {
@@ -166,6 +188,16 @@ pub struct Lab {
     pub entry_partners: Vec<usize>,
     /// The tool.
     pub tool: Tool,
+    /// What the drawing tool draws.
+    pub draw_mode: DrawMode,
+    /// Points of an unfinished drawing that can be undone and redone.
+    pub drawn: (usize, usize),
+    /// How near a spline must come to a drawn stroke, in pixels.
+    pub stroke_tolerance: f64,
+    /// Whether the selected curve has handles on itself, the edit points.
+    pub edit_points: bool,
+    /// Whether the selected curve has handles for the ratios of neighbouring weights.
+    pub weight_points: bool,
     /// Colours and sizes.
     pub theme: Theme,
     /// Page of the right panel.
@@ -205,6 +237,11 @@ impl Lab {
             hovering: Hovered::Nothing,
             entry_partners: Vec::new(),
             tool: Tool::Select,
+            draw_mode: DrawMode::Points,
+            drawn: (0, 0),
+            stroke_tolerance: 2.5,
+            edit_points: false,
+            weight_points: false,
             theme: Theme::light(),
             side: SidePage::Inspector,
             stepper: StepperState::default(),
@@ -341,6 +378,16 @@ impl Lab {
             self.view.stepper = kind;
             self.stepper = StepperState { open: self.stepper.open, ..StepperState::default() };
         }
+    }
+
+    /// What Undo would take back: a point of the drawing under way, else the last step.
+    pub fn undo_name(&self) -> Option<&str> {
+        if self.drawn.0 > 0 { Some("Drawn point") } else { self.history.undo_name() }
+    }
+
+    /// What Redo would do again.
+    pub fn redo_name(&self) -> Option<&str> {
+        if self.drawn.1 > 0 { Some("Drawn point") } else { self.history.redo_name() }
     }
 
     /// Says something that was done.

@@ -50,6 +50,8 @@ fn starts_group(command: Command) -> bool {
             | Command::InsertKnot
             | Command::UniformKnots
             | Command::RefineUniformly
+            | Command::ToggleEditPoints
+            | Command::AlignX
             | Command::ElevateDegree
             | Command::ImportMesh
             | Command::ToggleNet
@@ -65,7 +67,7 @@ fn starts_group(command: Command) -> bool {
 
 fn entry(command: Command, lab: &mut Lab, ui: &mut Ui) {
     let (text, hint) = command.text();
-    let text = match (command, lab.history.undo_name(), lab.history.redo_name()) {
+    let text = match (command, lab.undo_name(), lab.redo_name()) {
         (Command::Undo, Some(step), _) => format!("Undo {}", in_a_sentence(step)),
         (Command::Redo, _, Some(step)) => format!("Redo {}", in_a_sentence(step)),
         _ => text.to_owned(),

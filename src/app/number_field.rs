@@ -155,6 +155,8 @@ impl<'a> NumberField<'a> {
         let response = ui.put(rect, editor).accessible_name(self.label);
         let mut event = None;
         if response.lost_focus() {
+            // The key that takes the number is no shortcut.
+            ui.input_mut(|input| input.consume_key(egui::Modifiers::NONE, Key::Enter));
             if ui.input(|input| input.key_pressed(Key::Escape)) {
                 return NumberResponse { response, event };
             }

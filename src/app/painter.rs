@@ -1,7 +1,7 @@
 //! Paints a [`Picture`] with egui: cubics are flattened and clipped in f64 before anything becomes f32.
 
 use eframe::egui::{
-    Align2, Color32, ColorImage, FontFamily, FontId, Painter, Pos2, Rect, Shape, Stroke as PenStroke,
+    Align, Align2, Color32, ColorImage, FontFamily, FontId, Painter, Pos2, Rect, Shape, Stroke as PenStroke,
     TextureOptions, Vec2, epaint, pos2, vec2,
 };
 use glam::DVec2;
@@ -12,6 +12,7 @@ use crate::figure::mesh::{Mesh, PlacedImage};
 use crate::figure::picture::{
     Anchor, Color, Item, Label, Marker, MarkerShape, Path, Picture, Segment, Viewport,
 };
+use crate::figure::theme::Theme;
 
 /// Largest distance in pt between a painted polyline and the cubic it stands for.
 const FLATNESS: f64 = 0.1;
@@ -276,6 +277,20 @@ pub(crate) fn paint_note(
     let place = anchor.anchor_size(at, galley.size());
     painter.rect_filled(place.expand2(vec2(6.0, 3.0)), 4.0, color32(ground.with_opacity(0.85)));
     painter.galley(place.min, galley, color32(ink));
+}
+
+/// [`paint_note`] beside the pointer, on the side where `rect` has room for it.
+pub(crate) fn paint_note_at_pointer(painter: &Painter, pointer: Pos2, rect: Rect, text: &str, theme: &Theme) {
+    let size = 13.0 * theme.text_scale as f32;
+    let galley = painter.layout_no_wrap(text.to_owned(), FontId::proportional(size), color32(theme.text));
+    let (mut anchor, mut way) = (Align2::LEFT_TOP, vec2(18.0, 18.0));
+    if pointer.x + way.x + galley.size().x > rect.right() - 8.0 {
+        (anchor.0[0], way.x) = (Align::Max, -18.0);
+    }
+    if pointer.y + way.y + galley.size().y > rect.bottom() - 8.0 {
+        (anchor.0[1], way.y) = (Align::Max, -18.0);
+    }
+    paint_note(painter, pointer + way, anchor, text, size, theme.text, theme.background);
 }
 
 #[cfg(test)]

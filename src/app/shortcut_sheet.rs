@@ -7,16 +7,22 @@ use crate::app::command_state::key_text;
 use crate::app::lab::Lab;
 
 /// What the mouse and the arrow keys do.
-const HANDS: [(&str, &str); 19] = [
+const HANDS: [(&str, &str); 25] = [
     ("Click", "Select; with Shift add to the selection"),
     ("Drag a point or a knot", "Move it; Shift keeps to an axis, Ctrl snaps to the grid"),
+    ("Drag a curve", "Move it where it was grabbed; only the nearest control points move"),
+    ("Drag the ring of a point", "Change its weight: outwards more, inwards less"),
     ("Drag on empty ground", "Select what is inside the frame"),
     ("Double click on a curve", "Insert a knot there, shape kept"),
+    ("Double click on an edge", "Insert a control point there"),
     ("Right click", "Menu of the thing under the pointer"),
     ("Wheel", "Zoom at the pointer"),
     ("Alt + wheel over a point", "Change its weight"),
     ("Middle drag", "Pan"),
     ("Space + drag", "Pan"),
+    ("Digits while drawing", "Type x; y, a step @x; y, a length, or a weight; Enter takes it"),
+    ("Ctrl + Z while drawing", "Take back the last point"),
+    ("Right click while drawing", "End the curve"),
     ("Arrow keys", "Nudge the selected points"),
     ("Shift + arrow keys", "Nudge by ten steps"),
     ("Ctrl + arrow keys", "Nudge by a tenth of a step"),

@@ -27,8 +27,7 @@ pub(crate) fn show(lab: &mut Lab, workspace: &mut dyn Workspace, ui: &mut Ui) {
             }
             ui.separator();
         }
-        let (undo, redo) =
-            (lab.history.undo_name().map(str::to_owned), lab.history.redo_name().map(str::to_owned));
+        let (undo, redo) = (lab.undo_name().map(str::to_owned), lab.redo_name().map(str::to_owned));
         step("⟲", "Undo", Command::Undo, undo, lab, ui);
         step("⟳", "Redo", Command::Redo, redo, lab, ui);
         ui.separator();

@@ -48,6 +48,7 @@
 //! | B.7 Inflections, vertices, boxes, torsion | `spline_curve/{curvature, inflections, vertices, tight_box}`, `bezier/{curvature, inflections}` |
 //! | B.8 Rational tessellation | `rational_bezier/chord_bound`, `spline_curve/chord_polygon` |
 //! | B.12 Circles, arcs and conics | `rational_bezier/{circle, conic_arc}` |
+//! | B.16 Fitting a stroke | `spline_curve/{fitting, fitting_stroke}` |
 //!
 //! # Notation and conventions
 //!

@@ -102,6 +102,24 @@ pub enum Edit {
         /// As many positions as the curve has points.
         positions: Vec<DVec2>,
     },
+    /// Moves the point of the curve at a parameter; the active control points change as little as possible.
+    MoveCurveAt {
+        /// The curve.
+        object: ObjectId,
+        /// The parameter.
+        at: f64,
+        /// The vector.
+        delta: DVec2,
+    },
+    /// Moves one edit point; the others stay, so that all control points change.
+    MoveEditPoint {
+        /// The curve.
+        object: ObjectId,
+        /// Index of the edit point.
+        point: usize,
+        /// The vector.
+        delta: DVec2,
+    },
     /// Changes one weight.
     SetWeight {
         /// The curve.
@@ -279,6 +297,8 @@ impl Edit {
             Self::MovePoints { points, .. } => counted("Move", points.len(), "point"),
             Self::SetPoint { point, .. } => format!("Move point {point}"),
             Self::SetPoints { .. } => "Move all points".to_owned(),
+            Self::MoveCurveAt { .. } => "Drag curve".to_owned(),
+            Self::MoveEditPoint { point, .. } => format!("Move edit point {point}"),
             Self::SetWeight { point, weight, .. } => format!("Set weight {point} to {}", short(*weight)),
             Self::SetWeights { .. } => "Set all weights".to_owned(),
             Self::InsertKnot { at, .. } => format!("Insert knot {}", short(*at)),

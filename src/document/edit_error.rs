@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use crate::core::approximation::ApproximationError;
 use crate::core::bspline::SplineError;
 use crate::core::surface::{MeshError, SurfaceError};
 use crate::document::edit::{MAX_EDIT_DEGREE, short};
@@ -151,6 +152,9 @@ pub enum EditError {
     /// Points, weights or knots do not make a curve.
     #[error(transparent)]
     Spline(#[from] SplineError),
+    /// Points of the curve do not determine it.
+    #[error(transparent)]
+    Approximation(#[from] ApproximationError),
     /// Points, weights or knots do not make a surface.
     #[error(transparent)]
     Surface(#[from] SurfaceError),
@@ -179,6 +183,7 @@ impl EditError {
             Self::BadName { .. } => "BadName",
             Self::InBatch { source, .. } => source.name(),
             Self::Spline(error) => error.name(),
+            Self::Approximation(error) => error.name(),
             Self::Surface(error) => error.name(),
             Self::Mesh(error) => error.name(),
         }

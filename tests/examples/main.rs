@@ -4,6 +4,7 @@
 
 mod beyond_conics;
 mod beyond_curves;
+mod beyond_fitting;
 mod beyond_intersections;
 mod beyond_length;
 mod beyond_measure;
@@ -26,11 +27,11 @@ use example::Example;
 
 /// The sections built so far. An example of one of them without a test is a failure; of sections built in part, such as 9.5,
 /// only the examples with a test are asserted.
-const SECTIONS: [&str; 47] = [
+const SECTIONS: [&str; 48] = [
     "1.4", "1.5", "2.1", "2.2", "2.3", "2.4", "2.5", "2.6", "2.7", "3.1", "3.2", "3.3", "3.4", "4.1", "4.2",
     "4.3", "4.4", "4.5", "4.6", "5.1", "5.5", "5.6", "6.1", "6.2", "6.3", "6.4", "7.3", "7.4", "8.2", "8.3",
     "9.1", "9.2", "9.3", "9.4", "B.1", "B.2", "B.3", "B.4", "B.5", "B.6", "B.7", "B.8", "B.9", "B.11",
-    "B.12", "B.14", "B.15",
+    "B.12", "B.14", "B.15", "B.16",
 ];
 
 /// What computes an example and compares.
@@ -47,6 +48,7 @@ fn every_example_of_the_sections_built_is_asserted() {
     let checks: BTreeMap<&str, Check> = [
         chapter1::CHECKS,
         beyond_curves::CHECKS,
+        beyond_fitting::CHECKS,
         beyond_intersections::CHECKS,
         beyond_length::CHECKS,
         beyond_measure::CHECKS,

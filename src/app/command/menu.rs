@@ -128,7 +128,20 @@ impl Command {
             | Self::ReduceDegree
             | Self::ToggleClosed
             | Self::Reverse
-            | Self::ResetWeights => Menu::Curve,
+            | Self::ResetWeights
+            | Self::DrawThrough
+            | Self::DrawStroke
+            | Self::DrawCircle
+            | Self::DrawArc
+            | Self::DrawEllipse
+            | Self::DrawConic
+            | Self::DrawConicFive
+            | Self::ToggleEditPoints
+            | Self::ToggleWeightPoints
+            | Self::AlignX
+            | Self::AlignY
+            | Self::AlignGrid
+            | Self::Distribute => Menu::Curve,
             Self::LevelUp
             | Self::LevelDown
             | Self::ToggleNet

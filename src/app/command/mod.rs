@@ -51,6 +51,20 @@ pub enum Command {
     SelectTool,
     /// The tool that draws a new curve.
     DrawTool,
+    /// A cubic spline through the points clicked.
+    DrawThrough,
+    /// A stroke by free hand, fitted by a spline.
+    DrawStroke,
+    /// A circle from centre and rim.
+    DrawCircle,
+    /// A circular arc through three points.
+    DrawArc,
+    /// An ellipse from centre and half axes.
+    DrawEllipse,
+    /// A conic arc from three points and a weight.
+    DrawConic,
+    /// The conic through five points.
+    DrawConicFive,
     /// The tool that selects and drags data and knots.
     SelectDataTool,
     /// The tool that adds data.
@@ -95,6 +109,18 @@ pub enum Command {
     Reverse,
     /// All weights 1.
     ResetWeights,
+    /// Handles on the curve on or off.
+    ToggleEditPoints,
+    /// Handles for ratios of weights on or off.
+    ToggleWeightPoints,
+    /// Selected points to one x.
+    AlignX,
+    /// Selected points to one y.
+    AlignY,
+    /// Selected points to the grid.
+    AlignGrid,
+    /// Selected points in equal steps.
+    Distribute,
     /// One subdivision step more.
     LevelUp,
     /// One subdivision step fewer.
@@ -201,7 +227,7 @@ pub enum Command {
 
 impl Command {
     /// All commands, in the order of menus, palette and sheet.
-    pub const ALL: [Self; 94] = [
+    pub const ALL: [Self; 107] = [
         Self::New,
         Self::Open,
         Self::Save,
@@ -223,6 +249,13 @@ impl Command {
         Self::Escape,
         Self::SelectTool,
         Self::DrawTool,
+        Self::DrawThrough,
+        Self::DrawStroke,
+        Self::DrawCircle,
+        Self::DrawArc,
+        Self::DrawEllipse,
+        Self::DrawConic,
+        Self::DrawConicFive,
         Self::SelectDataTool,
         Self::AddPointTool,
         Self::SampleFunction,
@@ -245,6 +278,12 @@ impl Command {
         Self::ToggleClosed,
         Self::Reverse,
         Self::ResetWeights,
+        Self::ToggleEditPoints,
+        Self::ToggleWeightPoints,
+        Self::AlignX,
+        Self::AlignY,
+        Self::AlignGrid,
+        Self::Distribute,
         Self::LevelUp,
         Self::LevelDown,
         Self::ToggleNet,

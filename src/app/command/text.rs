@@ -34,6 +34,40 @@ impl Command {
             Self::DrawTool => {
                 ("Draw a curve", "Click control points; Enter or double click ends, Backspace drops the last")
             }
+            Self::DrawThrough => (
+                "Draw through points",
+                "Click points that a cubic spline runs through; Enter ends, a click on the first point closes",
+            ),
+            Self::DrawStroke => {
+                ("Draw by free hand", "Press and draw; a spline is fitted within the tolerance")
+            }
+            Self::DrawCircle => {
+                ("Draw a circle", "Click the centre and a point of the rim, or drag from one to the other")
+            }
+            Self::DrawArc => ("Draw a circular arc", "Click its start, a point on the way, and its end"),
+            Self::DrawEllipse => (
+                "Draw an ellipse",
+                "Click the centre, the end of one half axis, and how far the other reaches",
+            ),
+            Self::DrawConic => (
+                "Draw a conic with a weight",
+                "Click three control points, then drag or type the weight of the middle one",
+            ),
+            Self::DrawConicFive => ("Draw a conic through five points", "Click five points"),
+            Self::ToggleEditPoints => {
+                ("Edit points on the curve", "Handles on the curve; dragging one keeps the others in place")
+            }
+            Self::ToggleWeightPoints => {
+                ("Weight points", "Handles on the edges for the ratio of neighbouring weights")
+            }
+            Self::AlignX => ("Align to one x", "Put the selected points above each other, at their mean"),
+            Self::AlignY => ("Align to one y", "Put the selected points beside each other, at their mean"),
+            Self::AlignGrid => {
+                ("Align to the grid", "Put the selected points on the nearest crossings of the grid")
+            }
+            Self::Distribute => {
+                ("Distribute evenly", "Put the selected points in equal steps between the first and the last")
+            }
             Self::SelectDataTool => ("Select data", "Select and drag data and knots"),
             Self::AddPointTool => ("Add points", "Click where data are to be"),
             Self::SampleFunction => {

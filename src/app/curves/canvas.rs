@@ -4,18 +4,21 @@ use eframe::egui::{self, Align2, CursorIcon, Pos2, Rect, Sense, Stroke, StrokeKi
 use glam::DVec2;
 
 use crate::app::command::Command;
+use crate::app::curves::align;
 use crate::app::curves::commands;
 use crate::app::curves::context_menu;
 use crate::app::curves::draw_tool::Drawing;
 use crate::app::curves::gesture::Gesture;
 use crate::app::curves::handles;
-use crate::app::curves::hit::{Target, target_at};
+use crate::app::curves::hit::{Target, Trees, target_at};
 use crate::app::curves::step_hands::{self, StepHands};
 use crate::app::hands;
-use crate::app::lab::{Hovered, Lab, Tool};
-use crate::app::painter::{color32, paint_note, paint_picture, screen_from_world, world_from_screen};
+use crate::app::lab::{DrawMode, Hovered, Lab, Tool};
+use crate::app::painter::{
+    color32, paint_note, paint_note_at_pointer, paint_picture, screen_from_world, world_from_screen,
+};
 use crate::document::{Edit, ObjectId};
-use crate::figure::composition::{Composition, GRID, StepDrawing, compose_with};
+use crate::figure::composition::{Composition, GRID, StepDrawing, compose_with, short_number};
 use crate::figure::picture::Viewport;
 
 /// Room around the objects when they are fitted, in pt.
@@ -32,6 +35,9 @@ pub(crate) struct Canvas {
     drawing: Drawing,
     step_hands: StepHands,
     menu_target: Target,
+    /// Where the menu was asked for.
+    menu_place: DVec2,
+    trees: Trees,
     panning: bool,
     wheel: Option<WheelWeight>,
 }
@@ -67,7 +73,16 @@ impl Canvas {
         hands::move_camera(&mut lab.view.camera, &mut self.panning, busy, &response, rect, ui);
         let viewport = viewport(lab);
         let pointer = ui.input(|input| input.pointer.hover_pos()).filter(|_| response.contains_pointer());
-        let target = pointer.map_or(Target::Nothing, |pointer| target_at(lab, &viewport, rect, pointer));
+        // What is dragged stays the target, and nothing has to be searched.
+        let target = match (&self.gesture, pointer) {
+            (Some(gesture), _) => gesture.target(),
+            (None, Some(pointer)) => target_at(lab, &mut self.trees, &viewport, rect, pointer),
+            (None, None) => Target::Nothing,
+        };
+        if lab.tool != Tool::Draw {
+            self.drawing.clear();
+            lab.drawn = (0, 0);
+        }
         if !self.step_hands.drag(lab, &response, &viewport, rect, ui) {
             self.use_hands(lab, &response, &viewport, rect, target, ui);
         }
@@ -76,18 +91,28 @@ impl Canvas {
         hover(lab, target);
         step_hands::hover(lab, target, pointer, &viewport, rect);
         self.paint(lab, &viewport, rect, pointer, ui);
-        handles::announce(lab, &viewport, rect, ui);
+        handles::announce(self.named(lab), &viewport, rect, ui);
         self.point_cursor(lab, target, pointer, ui);
         if response.secondary_clicked() {
             self.menu_target = target;
+            if let Some(pointer) = pointer {
+                self.menu_place = world_from_screen(&viewport, rect, pointer);
+            }
             if let Some(object) = target.object() {
                 lab.selection.object = Some(object);
             }
         }
         if lab.tool == Tool::Select {
-            let target = self.menu_target;
-            response.context_menu(|ui| context_menu::show(target, lab, ui));
+            let (target, place) = (self.menu_target, self.menu_place);
+            response.context_menu(|ui| context_menu::show(target, place, lab, ui));
         }
+    }
+
+    /// Everything that can be grabbed, by its accessible name.
+    pub(super) fn named(&self, lab: &Lab) -> Vec<(String, DVec2)> {
+        let mut named = handles::named(lab, &viewport(lab));
+        named.extend(self.drawing.named());
+        named
     }
 
     /// Where a world point is on the screen.
@@ -115,7 +140,13 @@ impl Canvas {
                 lab.view.panels.insert(GRID.to_owned(), !shown);
             }
             Command::SelectTool => lab.tool = Tool::Select,
-            Command::DrawTool => lab.tool = Tool::Draw,
+            Command::Undo if lab.tool == Tool::Draw && self.drawing.undo() => {}
+            Command::Redo if lab.tool == Tool::Draw && self.drawing.redo() => {}
+            Command::ToggleEditPoints => lab.edit_points = !lab.edit_points,
+            Command::ToggleWeightPoints => lab.weight_points = !lab.weight_points,
+            Command::AlignX | Command::AlignY | Command::AlignGrid | Command::Distribute => {
+                align::execute(command, lab);
+            }
             Command::Escape => {
                 if self.gesture.take().is_some() {
                     lab.history.cancel();
@@ -131,7 +162,15 @@ impl Canvas {
                 lab.selection.points = (0..count).collect();
             }
             Command::Delete => commands::delete(lab),
-            _ => return commands::edit_selected(command, lab),
+            _ => {
+                if let Some(mode) = DrawMode::ALL.into_iter().find(|mode| mode.command() == command) {
+                    lab.tool = Tool::Draw;
+                    lab.draw_mode = mode;
+                    self.drawing.clear();
+                    return true;
+                }
+                return commands::edit_selected(command, lab);
+            }
         }
         true
     }
@@ -146,19 +185,15 @@ impl Canvas {
         ui: &Ui,
     ) {
         let keys = ui.input(|input| input.modifiers);
+        if lab.tool == Tool::Draw {
+            self.gesture = None;
+            self.drawing.hands(lab, response, viewport, rect, self.panning, ui);
+            return;
+        }
         let Some(pointer) = ui.input(|input| input.pointer.latest_pos()) else { return };
         let (down, released) =
             ui.input(|input| (input.pointer.primary_down(), input.pointer.primary_released()));
         let pressed_at = hands::pressed_at(ui);
-        if lab.tool == Tool::Draw {
-            if response.double_clicked() || response.secondary_clicked() {
-                self.drawing.finish(false, lab);
-            } else if response.clicked() {
-                self.drawing.click(world_from_screen(viewport, rect, pointer), pointer, lab, viewport, rect);
-            }
-            self.drawing.keys(lab, ui);
-            return;
-        }
         // The first click of the two has brought the parameter to the place, so that its marker lies there now.
         let place = match target {
             Target::Curve(object, at) | Target::Knot(object, at) => Some((object, at)),
@@ -174,6 +209,11 @@ impl Canvas {
         }
         if response.double_clicked() && target == Target::Nothing {
             self.gesture = None;
+            let under = target_at(lab, &mut self.trees, viewport, rect, pointer);
+            if let Target::Edge(object, before) = under {
+                let position = world_from_screen(viewport, rect, pointer);
+                commands::insert_point(object, before, position, lab);
+            }
             return;
         }
         if let Some(at) = pressed_at
@@ -182,7 +222,7 @@ impl Canvas {
             && !self.panning
             && !ui.ctx().any_popup_open()
         {
-            let target = target_at(lab, viewport, rect, at);
+            let target = target_at(lab, &mut self.trees, viewport, rect, at);
             self.gesture = Some(Gesture::press(target, at, lab, viewport, rect, keys));
         }
         if let Some(mut gesture) = self.gesture.take() {
@@ -231,10 +271,17 @@ impl Canvas {
         let choices = Composition { step: step(lab), transparent: false };
         let picture = compose_with(lab.history.document(), &lab.view, &lab.theme, viewport, &choices);
         paint_picture(&picture, viewport, rect, &painter);
-        handles::paint(lab, viewport, rect, &painter);
         self.step_hands.paint(lab, viewport, rect, &painter, ui);
+        let along = self.gesture.as_ref().map_or(0.0, Gesture::along);
+        handles::paint(lab, viewport, rect, &painter, along);
         if lab.tool == Tool::Draw {
-            self.drawing.paint(pointer, lab, viewport, rect, &painter);
+            let keys = ui.input(|input| input.modifiers);
+            self.drawing.paint(pointer, lab, viewport, rect, &painter, keys);
+        }
+        if let Some(note) = self.note(lab)
+            && let Some(pointer) = ui.input(|input| input.pointer.latest_pos())
+        {
+            paint_note_at_pointer(&painter, pointer, rect, &note, &lab.theme);
         }
         if let Some(gesture) = &self.gesture
             && let Some(marquee) = pointer.and_then(|pointer| gesture.marquee(pointer))
@@ -242,7 +289,7 @@ impl Canvas {
             let ink = color32(lab.theme.selection);
             painter.rect(marquee, 0.0, ink.gamma_multiply(0.12), Stroke::new(1.0, ink), StrokeKind::Inside);
         }
-        let hint = hint(lab);
+        let hint = if lab.tool == Tool::Draw { Some(self.drawing.hint(lab)) } else { hint(lab) };
         if let Some(hint) = hint {
             let at = rect.center_top() + vec2(0.0, 14.0);
             paint_note(
@@ -257,6 +304,14 @@ impl Canvas {
         }
     }
 
+    /// The numbers that change under the hand.
+    fn note(&self, lab: &Lab) -> Option<String> {
+        if let Some(wheel) = &self.wheel {
+            return Some(format!("w = {}", short_number(wheel.weight)));
+        }
+        self.gesture.as_ref()?.note(lab)
+    }
+
     fn point_cursor(&self, lab: &Lab, target: Target, pointer: Option<Pos2>, ui: &Ui) {
         if pointer.is_none() {
             return;
@@ -265,9 +320,15 @@ impl Canvas {
             _ if self.panning => CursorIcon::Grabbing,
             _ if lab.tool == Tool::Draw => CursorIcon::Crosshair,
             _ if self.gesture.is_some() => CursorIcon::Grabbing,
-            Target::Point(..) | Target::Bead(..) | Target::Parameter(_) => CursorIcon::Grab,
-            Target::Curve(..) | Target::Knot(..) => CursorIcon::PointingHand,
-            Target::Nothing => CursorIcon::Default,
+            Target::Point(..)
+            | Target::Bead(..)
+            | Target::Ring(..)
+            | Target::WeightPoint(..)
+            | Target::EditPoint(..)
+            | Target::Curve(..)
+            | Target::Knot(..)
+            | Target::Parameter(_) => CursorIcon::Grab,
+            Target::Edge(..) | Target::Nothing => CursorIcon::Default,
         };
         ui.set_cursor_icon(icon);
     }
@@ -289,17 +350,12 @@ fn viewport(lab: &Lab) -> Viewport {
 }
 
 fn hint(lab: &Lab) -> Option<&'static str> {
-    if lab.tool == Tool::Draw {
-        return Some(
-            "Click control points. Enter or a double click ends, a click on the first point closes, Backspace drops the last.",
-        );
-    }
     if lab.history.document().is_empty() {
         return Some("Press D and click control points to draw a curve.");
     }
     let untouched = lab.history.steps() == (0, 0) && lab.path.is_none() && lab.lesson.is_none();
     untouched.then_some(
-        "Drag a round handle.  Double-click a curve to insert a knot.  Slide the square to move t.",
+        "Drag a round handle, or the curve itself.  Double-click a curve to insert a knot.  Slide the square to move t.",
     )
 }
 
@@ -314,8 +370,18 @@ fn step(lab: &Lab) -> Option<(ObjectId, StepDrawing)> {
 
 fn hover(lab: &mut Lab, target: Target) {
     let hovering = match target {
-        Target::Nothing => return,
-        Target::Point(object, point) | Target::Bead(object, point) => Hovered::Point(object, point),
+        Target::Nothing | Target::Edge(..) => return,
+        Target::Point(object, point)
+        | Target::Bead(object, point)
+        | Target::Ring(object, point)
+        | Target::WeightPoint(object, point) => Hovered::Point(object, point),
+        Target::EditPoint(object, point) => {
+            let curve = lab.history.document().curve(object);
+            match curve.and_then(|curve| curve.space().edit_parameters().get(point).copied()) {
+                Some(parameter) => Hovered::Curve(object, parameter),
+                None => return,
+            }
+        }
         Target::Knot(object, value) => Hovered::Knot(object, value),
         Target::Curve(object, parameter) => Hovered::Curve(object, parameter),
         Target::Parameter(object) => match lab.parameter(object) {

@@ -1,11 +1,14 @@
 //! What keys and menus do to the selected curve.
 
+use std::collections::BTreeSet;
+
 use eframe::egui::Ui;
+use glam::DVec2;
 
 use crate::app::command::Command;
 use crate::app::hands;
 use crate::app::lab::Lab;
-use crate::document::{CurveDisplay, Edit, PointLabels};
+use crate::document::{CurveDisplay, Edit, ObjectId, PointLabels};
 use crate::figure::picture::Viewport;
 
 /// Arrow keys move the selected points.
@@ -29,6 +32,14 @@ pub(super) fn delete(lab: &mut Lab) {
     } else {
         let points = std::mem::take(&mut lab.selection.points).into_iter().collect();
         lab.edit(Edit::DeletePoints { object, points });
+    }
+}
+
+/// A further control point, which is then selected.
+pub(super) fn insert_point(object: ObjectId, before: usize, position: DVec2, lab: &mut Lab) {
+    if lab.edit(Edit::InsertPoint { object, before, position }).is_some() {
+        lab.selection.points = BTreeSet::from([before]);
+        lab.selection.knot = None;
     }
 }
 

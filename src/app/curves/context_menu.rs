@@ -1,15 +1,18 @@
 //! The menu of the thing under the pointer.
 
 use eframe::egui::{Button, Ui};
+use glam::DVec2;
 
 use crate::app::command::Command;
-use crate::app::curves::hit::Target;
-use crate::app::lab::{Lab, Tool};
+use crate::app::curves::commands::insert_point;
+use crate::app::curves::hit::{Target, nearest_edge};
+use crate::app::curves::weight_handles::{edge_end, weights_for_weight_point};
+use crate::app::lab::{DrawMode, Lab};
 use crate::document::Edit;
 use crate::figure::composition::short_number;
 
 /// Shows the entries that fit `target`.
-pub(super) fn show(target: Target, lab: &mut Lab, ui: &mut Ui) {
+pub(super) fn show(target: Target, place: DVec2, lab: &mut Lab, ui: &mut Ui) {
     ui.set_min_width(190.0);
     match target {
         Target::Point(object, point) => {
@@ -26,6 +29,13 @@ pub(super) fn show(target: Target, lab: &mut Lab, ui: &mut Ui) {
             if ui.add_enabled(weight.to_bits() != 1.0_f64.to_bits(), Button::new("Weight 1")).clicked() {
                 lab.edit(Edit::SetWeight { object, point, weight: 1.0 });
             }
+            if lab.selection.points.len() > 1 && lab.selection.points.contains(&point) {
+                ui.separator();
+                for command in [Command::AlignX, Command::AlignY, Command::Distribute] {
+                    entry(command, lab, ui);
+                }
+            }
+            entry(Command::AlignGrid, lab, ui);
             ui.separator();
             if ui.button("Delete point").clicked() {
                 lab.edit(Edit::DeletePoints { object, points: vec![point] });
@@ -64,15 +74,40 @@ pub(super) fn show(target: Target, lab: &mut Lab, ui: &mut Ui) {
             entry(Command::ToggleCircle, lab, ui);
             entry(Command::ToggleHull, lab, ui);
         }
-        Target::Bead(object, point) => {
+        Target::Ring(object, point) | Target::Bead(object, point) => {
             if ui.button("Weight 1").clicked() {
                 lab.edit(Edit::SetWeight { object, point, weight: 1.0 });
             }
         }
-        Target::Nothing => {
-            if ui.button("Draw a curve").clicked() {
-                lab.tool = Tool::Draw;
+        Target::WeightPoint(object, edge) => {
+            if ui.button("Equal weights").clicked()
+                && let Some(curve) = lab.history.document().curve(object)
+            {
+                let middle = curve.points()[edge].midpoint(curve.points()[edge_end(curve, edge)]);
+                let weights = weights_for_weight_point(curve, edge, middle);
+                lab.edit(Edit::SetWeights { object, weights });
             }
+            entry(Command::ToggleWeightPoints, lab, ui);
+            entry(Command::ResetWeights, lab, ui);
+        }
+        Target::EditPoint(..) => entry(Command::ToggleEditPoints, lab, ui),
+        Target::Nothing | Target::Edge(..) => {
+            let object = lab.selection.object.and_then(|id| lab.history.document().object(id));
+            if let Some((id, (before, _))) =
+                object.and_then(|object| Some((object.id, nearest_edge(object, place)?)))
+                && ui.button("Insert point here").clicked()
+            {
+                insert_point(id, before, place, lab);
+            }
+            ui.menu_button("Draw", |ui| {
+                for mode in DrawMode::ALL {
+                    entry(mode.command(), lab, ui);
+                }
+            });
+            for command in [Command::ToggleEditPoints, Command::ToggleWeightPoints] {
+                entry(command, lab, ui);
+            }
+            ui.separator();
             for command in [Command::Fit, Command::ToggleGrid, Command::SelectAll, Command::ExportFigure] {
                 entry(command, lab, ui);
             }

@@ -1,85 +1,390 @@
-//! Drawing a new curve, click by click.
+//! Drawing a new curve, click by click, by free hand, and with typed numbers.
 
-use eframe::egui::{Key, Painter, Pos2, Rect, Shape, Stroke, Ui};
+use eframe::egui::{self, Event, Key, Modifiers, Painter, Pos2, Rect, Shape, Stroke, Ui};
 use glam::DVec2;
 
-use crate::app::lab::{Lab, Tool};
-use crate::app::painter::{color32, screen_from_world};
-use crate::core::bspline::SplineSpace;
-use crate::core::spline_curve::Nurbs;
+use crate::app::curves::draw_shapes::{circle_through, conic_weight, construct, half_axes, shoulder};
+use crate::app::hands::{DEAD_ZONE, constrained, pressed_at};
+use crate::app::lab::{DrawMode, Lab, Tool};
+use crate::app::number_text::parse_list;
+use crate::app::painter::{color32, paint_note_at_pointer, screen_from_world, world_from_screen};
+use crate::core::spline_curve::{FitOptions, FittingError, Nurbs, fit_stroke};
+use crate::course::number_text::parse_number;
 use crate::document::{CurveDisplay, Edit};
+use crate::figure::composition::short_number;
 use crate::figure::picture::Viewport;
 
-/// The degree of a drawn curve as soon as it has enough points.
-const DEGREE: usize = 3;
-
-/// Pixels within which a click on the first point closes the curve.
+/// Pixels within which a click on the first point closes the curve, and a stroke that comes back to its start.
 const CLOSING_REACH: f32 = 10.0;
 
-/// The control points clicked so far.
+/// Two clicks farther from each other are no double click.
+const DOUBLE_REACH: f32 = 6.0;
+
+/// Turns of a stroke sharper than this are corners.
+const CORNER_ANGLE: f64 = 1.2;
+
+/// The most control points of a fitted stroke.
+const MOST_POINTS: usize = 400;
+
+/// The points clicked so far.
 #[derive(Debug, Default)]
 pub(super) struct Drawing {
+    mode: DrawMode,
     points: Vec<DVec2>,
+    /// Points that were undone; the last one comes back first.
+    undone: Vec<DVec2>,
+    /// Where the button went down.
+    pressed: Option<Pos2>,
+    /// The stroke while the button is down.
+    stroke: Vec<DVec2>,
+    /// The number that is being typed.
+    typed: String,
 }
 
 impl Drawing {
-    /// A click at `world`; on the first point it closes the curve.
-    pub(super) fn click(
+    /// Forgets what is unfinished.
+    pub(super) fn clear(&mut self) {
+        *self = Self { mode: self.mode, ..Self::default() };
+    }
+
+    /// Takes back the last point; `false` if there is none.
+    pub(super) fn undo(&mut self) -> bool {
+        let last = self.points.pop();
+        self.undone.extend(last);
+        last.is_some()
+    }
+
+    /// Brings back the point undone last; `false` if there is none.
+    pub(super) fn redo(&mut self) -> bool {
+        let next = self.undone.pop();
+        self.points.extend(next);
+        next.is_some()
+    }
+
+    /// What mouse and keys do while the drawing tool is taken up.
+    pub(super) fn hands(
         &mut self,
-        world: DVec2,
-        pointer: Pos2,
         lab: &mut Lab,
+        response: &egui::Response,
         viewport: &Viewport,
         rect: Rect,
+        panning: bool,
+        ui: &Ui,
     ) {
-        let on_first = self.points.len() >= 3
-            && screen_from_world(viewport, rect, self.points[0]).distance(pointer) <= CLOSING_REACH;
-        if on_first {
-            self.finish(true, lab);
-        } else {
-            self.points.push(world);
+        if self.mode != lab.draw_mode {
+            self.mode = lab.draw_mode;
+            self.clear();
         }
-    }
-
-    /// Enter ends, Backspace drops the last point, Escape gives up; these keys are used up while something is drawn.
-    pub(super) fn keys(&mut self, lab: &mut Lab, ui: &Ui) {
-        if self.points.is_empty() {
-            return;
+        let keys = ui.input(|input| input.modifiers);
+        let pointer = ui.input(|input| input.pointer.latest_pos());
+        if let Some(at) = pressed_at(ui)
+            && rect.contains(at)
+            && (response.contains_pointer() || response.is_pointer_button_down_on())
+            && !panning
+            && !ui.ctx().any_popup_open()
+        {
+            self.pressed = Some(at);
+            self.stroke = vec![world_from_screen(viewport, rect, at)];
         }
-        let pressed = |key: Key| ui.input_mut(|input| input.consume_key(eframe::egui::Modifiers::NONE, key));
-        if pressed(Key::Enter) {
-            self.finish(false, lab);
-        } else if pressed(Key::Backspace) {
-            self.points.pop();
-        } else if pressed(Key::Escape) {
-            self.points.clear();
+        if panning {
+            self.pressed = None;
         }
-    }
-
-    /// Makes the curve; with fewer than two points there is none yet, and drawing goes on.
-    pub(super) fn finish(&mut self, closed: bool, lab: &mut Lab) {
-        // A double click leaves the same point twice.
-        self.points.dedup_by(|a, b| a.distance(*b) <= 1e-12 * (1.0 + b.length()));
-        if self.points.len() < 2 {
-            return;
-        }
-        let name = next_name(lab);
-        let color = lab.history.document().len();
-        match drawn_curve(&self.points, closed) {
-            Ok(curve) => {
-                let display = CurveDisplay { color, ..CurveDisplay::default() };
-                if let Some(outcome) = lab.edit(Edit::AddCurve { name, curve, display }) {
-                    lab.selection.object = outcome.created.first().copied();
-                    lab.selection.points.clear();
-                    lab.tool = Tool::Select;
-                    self.points.clear();
-                }
+        if let Some(pressed) = self.pressed
+            && let Some(pointer) = pointer
+        {
+            if self.mode == DrawMode::Stroke {
+                self.follow(viewport, rect, ui);
             }
-            Err(error) => lab.problem(error.to_string()),
+            if ui.input(|input| input.pointer.primary_released() || !input.pointer.primary_down()) {
+                self.pressed = None;
+                self.released(pressed, pointer, lab, response, viewport, rect, keys);
+            }
+        }
+        if response.secondary_clicked() {
+            if self.points.is_empty() {
+                lab.tool = Tool::Select;
+            } else if self.mode.clicks().is_some() {
+                self.clear();
+            } else {
+                self.finish(false, lab);
+            }
+        }
+        self.keys(lab, pointer, viewport, rect, ui);
+        lab.drawn = (self.points.len(), self.undone.len());
+    }
+
+    /// The button came up.
+    #[expect(clippy::too_many_arguments, reason = "all of them say where and how")]
+    fn released(
+        &mut self,
+        pressed: Pos2,
+        pointer: Pos2,
+        lab: &mut Lab,
+        response: &egui::Response,
+        viewport: &Viewport,
+        rect: Rect,
+        keys: Modifiers,
+    ) {
+        let on_screen = |world: DVec2| screen_from_world(viewport, rect, world);
+        let moved = pressed.distance(pointer) >= DEAD_ZONE;
+        if self.mode == DrawMode::Stroke {
+            return self.finish_stroke(lab, viewport, rect);
+        }
+        let again = response.double_clicked() || response.triple_clicked();
+        if !moved
+            && again
+            && self.points.last().is_some_and(|&last| on_screen(last).distance(pressed) <= DOUBLE_REACH)
+        {
+            if self.mode.clicks().is_none() {
+                self.finish(false, lab);
+            }
+            return;
+        }
+        if let Some(needed) = self.mode.clicks() {
+            if moved && self.points.len() + 2 <= needed {
+                self.add(self.place(pressed, viewport, rect, keys), lab);
+            }
+        } else if self.points.len() >= 3 && on_screen(self.points[0]).distance(pointer) <= CLOSING_REACH {
+            return self.finish(true, lab);
+        }
+        self.add(self.place(pointer, viewport, rect, keys), lab);
+    }
+
+    /// A further point; the last one that is needed ends the drawing.
+    fn add(&mut self, place: DVec2, lab: &mut Lab) {
+        if self.mode.clicks().is_some() && self.points.last() == Some(&place) {
+            return;
+        }
+        self.points.push(place);
+        self.undone.clear();
+        self.typed.clear();
+        if self.mode.clicks().is_some_and(|needed| self.points.len() >= needed) {
+            self.finish(false, lab);
+            // What cannot be made waits for another last point.
+            if lab.tool == Tool::Draw {
+                self.points.pop();
+            }
         }
     }
 
-    /// The polygon so far, the curve it would make, and the line to the pointer.
+    /// The place that a click at `pointer` means: with Shift along an axis from the point before, with Ctrl on the grid.
+    fn place(&self, pointer: Pos2, viewport: &Viewport, rect: Rect, keys: Modifiers) -> DVec2 {
+        let world = world_from_screen(viewport, rect, pointer);
+        match self.anchor() {
+            Some(anchor) => anchor + constrained(world - anchor, anchor, viewport, keys),
+            None => constrained(world, DVec2::ZERO, viewport, Modifiers { shift: false, ..keys }),
+        }
+    }
+
+    /// Where lengths are measured from.
+    fn anchor(&self) -> Option<DVec2> {
+        match self.mode {
+            DrawMode::Circle | DrawMode::Ellipse => self.points.first().copied(),
+            _ => self.points.last().copied(),
+        }
+    }
+
+    /// Enter ends or takes the number typed, Backspace drops, Escape gives up; digits make a number. These keys are used up while something is drawn.
+    fn keys(&mut self, lab: &mut Lab, pointer: Option<Pos2>, viewport: &Viewport, rect: Rect, ui: &Ui) {
+        if ui.text_edit_focused() || ui.memory(|memory| memory.top_modal_layer().is_some()) {
+            return;
+        }
+        if self.mode != DrawMode::Stroke {
+            self.type_number(ui);
+        }
+        if self.points.is_empty() && self.typed.is_empty() {
+            return;
+        }
+        let pressed = |key: Key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
+        if pressed(Key::Enter) {
+            if self.typed.is_empty() {
+                self.finish(false, lab);
+            } else {
+                self.take_typed(lab, pointer, viewport, rect);
+            }
+        } else if pressed(Key::Backspace) {
+            if self.typed.pop().is_none() {
+                self.points.pop();
+                self.undone.clear();
+            }
+        } else if pressed(Key::Escape) {
+            if self.typed.is_empty() {
+                self.clear();
+            } else {
+                self.typed.clear();
+            }
+        }
+    }
+
+    fn type_number(&mut self, ui: &Ui) {
+        let started = !self.typed.is_empty();
+        let part = |letter: char| {
+            letter.is_ascii_digit() || "-.@".contains(letter) || (started && ",; ".contains(letter))
+        };
+        let typed = &mut self.typed;
+        ui.input_mut(|input| {
+            let plain = !input.modifiers.command && !input.modifiers.alt;
+            if !plain {
+                return;
+            }
+            input.events.retain(|event| match event {
+                Event::Text(text) if text.chars().all(part) => {
+                    typed.push_str(text);
+                    false
+                }
+                _ => true,
+            });
+        });
+    }
+
+    /// `x; y` is a place, `@x; y` one counted from the point before; a single number is a length towards the pointer, or the weight.
+    fn take_typed(&mut self, lab: &mut Lab, pointer: Option<Pos2>, viewport: &Viewport, rect: Rect) {
+        let text = std::mem::take(&mut self.typed);
+        let relative = text.starts_with('@');
+        let text = text.trim_start_matches('@').trim();
+        // A comma between two digits is a decimal sign, as in every field of the window.
+        let numbers = if text.contains([';', ' ']) {
+            parse_list(text)
+        } else {
+            parse_number(text).map(|number| vec![number]).map_err(|error| error.to_string())
+        };
+        let numbers = match numbers {
+            Ok(numbers) => numbers,
+            Err(reason) => return lab.problem(reason),
+        };
+        let anchor = self.anchor();
+        let place = match (&numbers[..], anchor) {
+            (&[x, y], Some(anchor)) if relative => anchor + DVec2::new(x, y),
+            (&[x, y], _) => DVec2::new(x, y),
+            (&[weight], _) if self.mode == DrawMode::Conic && self.points.len() == 3 => {
+                if weight <= 0.0 {
+                    return lab.problem("A weight must be positive.");
+                }
+                // Exactly that weight, not the one of a place on the screen.
+                return self.finish_conic(weight, lab);
+            }
+            (&[length], Some(anchor)) => {
+                let towards = pointer.map_or(DVec2::X, |at| world_from_screen(viewport, rect, at) - anchor);
+                let direction = match (self.mode, &self.points[..]) {
+                    (DrawMode::Ellipse, &[center, first]) => (first - center).perp(),
+                    _ => towards,
+                };
+                anchor + direction.normalize_or(DVec2::X) * length
+            }
+            _ => return lab.problem("Type x; y for a place, @x; y for a step, or one number for a length."),
+        };
+        if !place.is_finite() {
+            return lab.problem("That place is not finite.");
+        }
+        self.add(place, lab);
+    }
+
+    fn finish_conic(&mut self, weight: f64, lab: &mut Lab) {
+        let &[start, middle, end] = &self.points[..] else { return };
+        self.points.push(shoulder([start, middle, end], weight));
+        let made = construct(self.mode, &self.points, false).and_then(|mut curves| {
+            let exact = curves.pop().ok_or_else(String::new)?.with_weight(1, weight);
+            exact.map(|curve| vec![curve]).map_err(|error| error.to_string())
+        });
+        self.make(made, lab);
+    }
+
+    /// Makes the curve; with too few points there is none yet, and drawing goes on.
+    fn finish(&mut self, closed: bool, lab: &mut Lab) {
+        if self.mode.clicks().map_or(self.points.len() < 2, |needed| self.points.len() < needed) {
+            return;
+        }
+        let made = construct(self.mode, &self.points, closed);
+        self.make(made, lab);
+    }
+
+    fn make(&mut self, made: Result<Vec<Nurbs<DVec2>>, String>, lab: &mut Lab) {
+        let curves = match made {
+            Ok(curves) => curves,
+            Err(reason) => return lab.problem(reason),
+        };
+        let noun = self.mode.noun();
+        let mut number = 0;
+        let mut edits: Vec<Edit> = Vec::new();
+        for curve in curves {
+            let name = next_name(noun, &mut number, lab);
+            let display =
+                CurveDisplay { color: lab.history.document().len() + edits.len(), ..CurveDisplay::default() };
+            edits.push(Edit::AddCurve { name, curve, display });
+        }
+        let edit = match edits.len() {
+            1 => edits.remove(0),
+            count => Edit::Batch { label: format!("Add {count} branches"), edits },
+        };
+        if let Some(outcome) = lab.edit(edit) {
+            lab.selection.object = outcome.created.first().copied();
+            lab.selection.points.clear();
+            lab.selection.knot = None;
+            lab.tool = Tool::Select;
+            self.clear();
+        }
+    }
+
+    /// The stroke goes on to where the pointer has been in this frame.
+    fn follow(&mut self, viewport: &Viewport, rect: Rect, ui: &Ui) {
+        let moves: Vec<Pos2> = ui.input(|input| {
+            let moved = |event: &Event| match event {
+                Event::PointerMoved(at) | Event::PointerButton { pos: at, .. } => Some(*at),
+                _ => None,
+            };
+            input.events.iter().filter_map(moved).collect()
+        });
+        for at in moves {
+            let world = world_from_screen(viewport, rect, at);
+            if self.stroke.last().is_none_or(|last| last.distance(world) * viewport.scale >= 1.0) {
+                self.stroke.push(world);
+            }
+        }
+    }
+
+    fn finish_stroke(&mut self, lab: &mut Lab, viewport: &Viewport, rect: Rect) {
+        let stroke = std::mem::take(&mut self.stroke);
+        let on_screen = |world: DVec2| screen_from_world(viewport, rect, world);
+        let (Some(&first), Some(&last)) = (stroke.first(), stroke.last()) else { return };
+        let farthest = stroke.iter().map(|&at| on_screen(at).distance(on_screen(first))).fold(0.0, f32::max);
+        if farthest < DEAD_ZONE {
+            return;
+        }
+        let closed = farthest > 4.0 * CLOSING_REACH
+            && stroke.len() > 8
+            && on_screen(last).distance(on_screen(first)) <= CLOSING_REACH;
+        let options = FitOptions {
+            degree: 3,
+            tolerance: lab.stroke_tolerance / viewport.scale,
+            corner_angle: CORNER_ANGLE,
+            closed,
+            most_points: MOST_POINTS,
+        };
+        let fit = match fit_stroke(&stroke, &options) {
+            Ok(fit) => fit,
+            Err(FittingError::StepLimit { best }) => *best,
+            Err(error) => return lab.problem(error.to_string()),
+        };
+        let (count, error) = (fit.curve.points().len(), fit.max_error * viewport.scale);
+        self.make(Ok(vec![fit.curve]), lab);
+        lab.shape_note = Some(format!(
+            "{} points drawn, {count} control points; the curve is within {} px of them.",
+            stroke.len(),
+            short_number(error)
+        ));
+    }
+
+    /// The points clicked, by the names of their handles.
+    pub(super) fn named(&self) -> Vec<(String, DVec2)> {
+        self.points.iter().enumerate().map(|(k, &at)| (format!("Drawn point {k}"), at)).collect()
+    }
+
+    /// What to do next.
+    pub(super) fn hint(&self, lab: &Lab) -> &'static str {
+        lab.draw_mode.hint(if self.mode == lab.draw_mode { self.points.len() } else { 0 })
+    }
+
+    /// The points so far, the curve they would make with the one under the pointer, and its size.
     pub(super) fn paint(
         &self,
         pointer: Option<Pos2>,
@@ -87,89 +392,121 @@ impl Drawing {
         viewport: &Viewport,
         rect: Rect,
         painter: &Painter,
+        keys: Modifiers,
     ) {
-        let ink = color32(lab.theme.accent);
-        let mut corners: Vec<Pos2> =
-            self.points.iter().map(|&at| screen_from_world(viewport, rect, at)).collect();
+        let (ink, thin) = (color32(lab.theme.accent), Stroke::new(1.0, color32(lab.theme.muted_text)));
+        let on_screen = |world: DVec2| screen_from_world(viewport, rect, world);
+        if !self.stroke.is_empty() && self.pressed.is_some() && self.mode == DrawMode::Stroke {
+            let line = self.stroke.iter().map(|&at| on_screen(at)).collect();
+            painter.add(Shape::line(line, Stroke::new(2.5, ink)));
+            return;
+        }
         let mut places = self.points.clone();
-        if let Some(pointer) = pointer {
-            corners.push(pointer);
-            places.push(crate::app::painter::world_from_screen(viewport, rect, pointer));
-        }
-        if places.len() >= 2
-            && let Ok(curve) = drawn_curve(&places, false)
+        if let (Some(pressed), Some(needed)) = (self.pressed, self.mode.clicks())
+            && places.len() + 2 <= needed
+            && pointer.is_some_and(|pointer| pointer.distance(pressed) >= DEAD_ZONE)
         {
-            let (left, right) = curve.space().parameter_interval();
-            let steps = 40 * places.len();
-            let line = (0..=steps).filter_map(|step| {
-                let parameter = left + (right - left) * step as f64 / steps as f64;
-                curve.evaluate(parameter).ok().map(|at| screen_from_world(viewport, rect, at))
-            });
-            painter.add(Shape::line(line.collect(), Stroke::new(2.5, ink)));
+            places.push(self.place(pressed, viewport, rect, keys));
         }
-        painter.add(Shape::line(corners.clone(), Stroke::new(1.0, color32(lab.theme.muted_text))));
-        for (index, &corner) in corners.iter().enumerate().take(self.points.len()) {
-            let radius = if index == 0 { 6.0 } else { 4.5 };
-            painter.circle(corner, radius, color32(lab.theme.background), Stroke::new(2.0, ink));
+        let clicked = places.len();
+        if let Some(pointer) = pointer.filter(|_| self.mode != DrawMode::Stroke) {
+            let with_pressed = Self { mode: self.mode, points: places.clone(), ..Self::default() };
+            places.push(with_pressed.place(pointer, viewport, rect, keys));
         }
+        let closing = self.mode.clicks().is_none()
+            && self.points.len() >= 3
+            && pointer.is_some_and(|pointer| on_screen(self.points[0]).distance(pointer) <= CLOSING_REACH);
+        if closing {
+            places.pop();
+        }
+        let curves = if places.len() >= 2 { construct(self.mode, &places, closing) } else { Ok(Vec::new()) };
+        for curve in curves.iter().flatten() {
+            painter
+                .add(Shape::line(samples(curve).into_iter().map(on_screen).collect(), Stroke::new(2.5, ink)));
+        }
+        let help: Vec<Pos2> = match (self.mode, &places[..]) {
+            (DrawMode::Through | DrawMode::Arc | DrawMode::ConicFive, _) => Vec::new(),
+            (DrawMode::Ellipse, &[center, first, second]) => {
+                let (u, v) = half_axes(center, first, second);
+                [center + u, center, center + v].map(on_screen).to_vec()
+            }
+            (DrawMode::Conic, &[start, middle, end, place]) => {
+                let at = shoulder([start, middle, end], conic_weight([start, middle, end], place));
+                painter.circle_filled(on_screen(at), 4.0, ink);
+                [start, middle, end].map(on_screen).to_vec()
+            }
+            _ => places.iter().map(|&at| on_screen(at)).collect(),
+        };
+        painter.add(Shape::line(help, thin));
+        for (index, &place) in places.iter().enumerate().take(clicked) {
+            let radius = if index == 0 && self.mode.clicks().is_none() { 6.0 } else { 4.5 };
+            painter.circle(on_screen(place), radius, color32(lab.theme.background), Stroke::new(2.0, ink));
+        }
+        if let Some(pointer) = pointer {
+            let note = if self.typed.is_empty() {
+                self.size_note(&places)
+            } else {
+                Some(format!("{}|", self.typed))
+            };
+            if let Some(note) = note {
+                paint_note_at_pointer(painter, pointer, rect, &note, &lab.theme);
+            }
+        }
+    }
+
+    /// The size of what is being drawn.
+    fn size_note(&self, places: &[DVec2]) -> Option<String> {
+        let number = short_number;
+        let &place = places.last()?;
+        let length = |from: DVec2| number(place.distance(from));
+        Some(match (self.mode, places) {
+            (DrawMode::Circle, &[center, _]) => format!("r = {}", length(center)),
+            (DrawMode::Ellipse, &[center, _]) => format!("a = {}", length(center)),
+            (DrawMode::Ellipse, &[center, first, second]) => {
+                let (u, v) = half_axes(center, first, second);
+                format!("a = {}, b = {}", number(u.length()), number(v.length()))
+            }
+            (DrawMode::Arc, &[start, way, end]) => match circle_through(start, way, end) {
+                Some((_, radius)) => format!("r = {}", number(radius)),
+                None => "on one line".to_owned(),
+            },
+            (DrawMode::Conic, &[start, middle, end, at]) => {
+                let weight = conic_weight([start, middle, end], at);
+                let kind = match weight {
+                    w if (w - 1.0).abs() < 0.005 => "parabola",
+                    w if w < 1.0 => "ellipse",
+                    _ => "hyperbola",
+                };
+                format!("w = {}, {kind}", number(weight))
+            }
+            (_, &[.., before, _]) => {
+                format!("{}; {}   length {}", number(place.x), number(place.y), length(before))
+            }
+            _ => format!("{}; {}", number(place.x), number(place.y)),
+        })
     }
 }
 
-/// The curve with these control points: cubic, or of the highest degree they allow; ends interpolated, or closed.
-pub(super) fn drawn_curve(
-    points: &[DVec2],
-    closed: bool,
-) -> Result<Nurbs<DVec2>, crate::core::bspline::SplineError> {
-    let count = points.len();
-    let degree = DEGREE.min(count.saturating_sub(1)).max(1);
-    let space = if closed {
-        SplineSpace::periodic(degree, count as f64, (0..count).map(|k| k as f64).collect())?
-    } else {
-        let intervals = count - degree;
-        let inner = (1..intervals).map(|k| k as f64);
-        let end = intervals as f64;
-        let mut knots = vec![-1.0];
-        knots.extend(std::iter::repeat_n(0.0, degree));
-        knots.extend(inner);
-        knots.extend(std::iter::repeat_n(end, degree));
-        knots.push(end + 1.0);
-        SplineSpace::new(degree, knots)?
-    };
-    Nurbs::polynomial(space, points.to_vec())
+/// Points of the curve, close enough for a preview.
+fn samples(curve: &Nurbs<DVec2>) -> Vec<DVec2> {
+    let breaks = curve.space().breaks();
+    let steps = (4000 / breaks.len()).clamp(2, 32);
+    let mut line = Vec::with_capacity(breaks.len() * steps);
+    for ends in breaks.windows(2) {
+        let at = |step: usize| ends[0] + (ends[1] - ends[0]) * step as f64 / steps as f64;
+        line.extend((0..steps).filter_map(|step| curve.evaluate(at(step)).ok()));
+    }
+    line.extend(breaks.last().and_then(|&end| curve.evaluate(end).ok()));
+    line
 }
 
-fn next_name(lab: &Lab) -> String {
+fn next_name(noun: &str, number: &mut usize, lab: &Lab) -> String {
     let taken = |name: &str| lab.history.document().objects().iter().any(|object| object.name == name);
-    (1..)
-        .map(|number| format!("Curve {number}"))
-        .find(|name| !taken(name))
-        .unwrap_or_else(|| "Curve".to_owned())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_drawn_curve_starts_and_ends_at_its_first_and_last_point() {
-        for count in 2..9 {
-            let points: Vec<DVec2> =
-                (0..count).map(|k| DVec2::new(f64::from(k), f64::from(k * k % 5))).collect();
-            let curve = drawn_curve(&points, false).unwrap();
-            let (left, right) = curve.space().parameter_interval();
-            assert_eq!(curve.evaluate(left).unwrap(), points[0], "{count} points: start");
-            assert!(
-                curve.evaluate(right).unwrap().distance(points[points.len() - 1]) < 1e-14,
-                "{count} points: end"
-            );
+    loop {
+        *number += 1;
+        let name = format!("{noun} {number}");
+        if !taken(&name) {
+            return name;
         }
-    }
-
-    #[test]
-    fn three_points_make_a_closed_curve() {
-        let points = vec![DVec2::ZERO, DVec2::X, DVec2::Y];
-        let curve = drawn_curve(&points, true).unwrap();
-        assert!(curve.space().is_periodic(), "closed");
-        assert_eq!(curve.evaluate(0.0).unwrap(), curve.evaluate(3.0).unwrap(), "one period later");
     }
 }

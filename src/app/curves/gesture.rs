@@ -7,10 +7,12 @@ use glam::DVec2;
 
 use crate::app::curves::handles::weight_for_bead;
 use crate::app::curves::hit::Target;
+use crate::app::curves::weight_handles::{edge_end, ray, weight_for_ring, weights_for_weight_point};
 use crate::app::hands::{DEAD_ZONE, constrained};
 use crate::app::lab::Lab;
 use crate::app::painter::{screen_from_world, world_from_screen};
 use crate::document::Edit;
+use crate::figure::composition::short_number;
 use crate::figure::picture::Viewport;
 
 /// A press of the left button and what it has become.
@@ -19,8 +21,12 @@ pub(super) struct Gesture {
     target: Target,
     from: Pos2,
     from_world: DVec2,
-    /// Where the grabbed control point was at the press.
+    /// Where the grabbed point was at the press.
     grabbed: DVec2,
+    /// Direction of the ray and weight at the press of a ring.
+    ring: (DVec2, f64),
+    /// How many pixels the ring has been dragged.
+    along: f64,
     /// The selection at the press, which a marquee with Shift adds to.
     before: BTreeSet<usize>,
     moved: bool,
@@ -57,8 +63,65 @@ impl Gesture {
             lab.selection.points.clear();
             lab.selection.knot = None;
         }
+        let curve = target.object().and_then(|object| lab.history.document().curve(object));
+        let mut ring = (DVec2::Y, 1.0);
+        match (target, curve) {
+            (Target::Curve(_, at) | Target::Knot(_, at), Some(curve)) => {
+                grabbed = curve.evaluate(at).unwrap_or_default();
+            }
+            (Target::EditPoint(_, point), Some(curve)) => {
+                let at = curve.space().edit_parameters().get(point).copied();
+                grabbed = at.and_then(|at| curve.evaluate(at).ok()).unwrap_or_default();
+            }
+            (Target::Ring(object, point), Some(curve)) => {
+                let found = lab.history.document().object(object);
+                ring.0 = found.and_then(|found| ray(lab, found)).map_or(DVec2::Y, |(_, direction)| direction);
+                ring.1 = curve.weights().get(point).copied().unwrap_or(1.0);
+            }
+            _ => {}
+        }
+        // An edge is empty ground for a drag.
+        let target = if matches!(target, Target::Edge(..)) { Target::Nothing } else { target };
         let from_world = world_from_screen(viewport, rect, pointer);
-        Self { target, from: pointer, from_world, grabbed, before, moved: false }
+        Self { target, from: pointer, from_world, grabbed, ring, along: 0.0, before, moved: false }
+    }
+
+    /// What is dragged.
+    pub(super) fn target(&self) -> Target {
+        self.target
+    }
+
+    /// How many pixels the ring has been dragged outwards.
+    pub(super) fn along(&self) -> f64 {
+        self.along
+    }
+
+    /// The numbers that change, to be shown beside the pointer.
+    pub(super) fn note(&self, lab: &Lab) -> Option<String> {
+        if !self.moved {
+            return None;
+        }
+        let curve = lab.history.document().curve(self.target.object()?)?;
+        let place = |at: DVec2| format!("{}; {}", short_number(at.x), short_number(at.y));
+        match self.target {
+            Target::Point(_, point) => Some(place(*curve.points().get(point)?)),
+            Target::Bead(_, point) | Target::Ring(_, point) => {
+                Some(format!("w = {}", short_number(*curve.weights().get(point)?)))
+            }
+            Target::WeightPoint(_, edge) => {
+                let end = edge_end(curve, edge);
+                let ratio = curve.weights().get(end)? / curve.weights().get(edge)?;
+                Some(format!("w{end} : w{edge} = {}", short_number(ratio)))
+            }
+            Target::Curve(_, at) | Target::Knot(_, at) => {
+                Some(format!("{}   t = {}", place(curve.evaluate(at).ok()?), short_number(at)))
+            }
+            Target::EditPoint(_, point) => {
+                let at = *curve.space().edit_parameters().get(point)?;
+                Some(place(curve.evaluate(at).ok()?))
+            }
+            _ => None,
+        }
     }
 
     /// The box of the marquee on the screen, if this is one.
@@ -97,14 +160,43 @@ impl Gesture {
                     lab.update(Edit::SetWeight { object, point, weight });
                 }
             }
-            Target::Parameter(object) | Target::Curve(object, _) | Target::Knot(object, _) => {
+            Target::Ring(object, point) => {
+                let way = (world - self.from_world) * viewport.scale;
+                self.along = way.dot(self.ring.0);
+                lab.begin("Change weight");
+                lab.update(Edit::SetWeight {
+                    object,
+                    point,
+                    weight: weight_for_ring(self.ring.1, self.along),
+                });
+            }
+            Target::WeightPoint(object, edge) => {
+                if let Some(curve) = lab.history.document().curve(object)
+                    && edge < curve.points().len()
+                {
+                    let weights = weights_for_weight_point(curve, edge, world);
+                    lab.begin("Move weight point");
+                    lab.update(Edit::SetWeights { object, weights });
+                }
+            }
+            Target::Curve(object, at) | Target::Knot(object, at) => {
+                let delta = constrained(world - self.from_world, self.grabbed, viewport, keys);
+                lab.begin("Drag curve");
+                lab.update(Edit::MoveCurveAt { object, at, delta });
+            }
+            Target::EditPoint(object, point) => {
+                let delta = constrained(world - self.from_world, self.grabbed, viewport, keys);
+                lab.begin("Move edit point");
+                lab.update(Edit::MoveEditPoint { object, point, delta });
+            }
+            Target::Parameter(object) => {
                 let nearest =
                     lab.history.document().curve(object).and_then(|curve| curve.closest_point(world).ok());
                 if let Some(nearest) = nearest {
                     lab.set_parameter(object, nearest.parameter);
                 }
             }
-            Target::Nothing => {
+            Target::Nothing | Target::Edge(..) => {
                 let marquee = Rect::from_two_pos(self.from, pointer);
                 let inside = |place: DVec2| marquee.contains(screen_from_world(viewport, rect, place));
                 let found: BTreeSet<usize> = lab.curve().map_or_else(BTreeSet::new, |curve| {
@@ -146,7 +238,13 @@ impl Gesture {
                 lab.selection.points.clear();
                 lab.selection.knot = None;
             }
-            Target::Nothing | Target::Bead(..) | Target::Parameter(_) => {}
+            Target::Nothing
+            | Target::Edge(..)
+            | Target::Bead(..)
+            | Target::Ring(..)
+            | Target::WeightPoint(..)
+            | Target::EditPoint(..)
+            | Target::Parameter(_) => {}
         }
     }
 }

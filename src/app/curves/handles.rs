@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use eframe::egui::{self, Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, vec2};
 use glam::DVec2;
 
+use crate::app::curves::weight_handles::{edge_end, ring_place, weight_points};
 use crate::app::lab::{Hovered, Lab};
 use crate::app::painter::{color32, paint_note, screen_from_world};
 use crate::core::spline_curve::Nurbs;
@@ -72,8 +73,8 @@ pub(super) fn weight_for_bead(curve: &Nurbs<DVec2>, index: usize, wanted: DVec2)
     Some(share * pull.rest / (pull.influence * (1.0 - share)))
 }
 
-/// Paints handles and highlights of the selected object, and what is hovered anywhere.
-pub(super) fn paint(lab: &Lab, viewport: &Viewport, rect: Rect, painter: &Painter) {
+/// Paints handles and highlights of the selected object, and what is hovered anywhere. The ring of a weight has been dragged `along` so many pixels.
+pub(super) fn paint(lab: &Lab, viewport: &Viewport, rect: Rect, painter: &Painter, along: f64) {
     let place = |world: DVec2| screen_from_world(viewport, rect, world);
     let selection = color32(lab.theme.selection);
     for object in lab.history.document().objects().iter().filter(|object| object.visible) {
@@ -92,6 +93,27 @@ pub(super) fn paint(lab: &Lab, viewport: &Viewport, rect: Rect, painter: &Painte
         }
         if let Some((index, bead)) = bead_place(lab, object) {
             paint_bead(lab, curve, index, place(bead), place(curve.points()[index]), painter);
+        }
+        if let Some((index, ring)) = ring_place(lab, object, viewport, along) {
+            let bead = bead_place(lab, object).is_some();
+            paint_ring(lab, curve, index, place(ring), place(curve.points()[index]), bead, painter);
+        }
+        let warning = color32(lab.theme.warning);
+        for at in weight_points(lab, object) {
+            let at = place(at);
+            let side = |x: f32, y: f32| at + vec2(x, y);
+            let corners = vec![side(0.0, -6.5), side(6.5, 0.0), side(0.0, 6.5), side(-6.5, 0.0)];
+            let ground = color32(lab.theme.background);
+            painter.add(Shape::convex_polygon(corners, ground, Stroke::new(2.0, warning)));
+        }
+        if lab.edit_points
+            && let Ok(places) = curve.edit_points()
+        {
+            let accent = color32(lab.theme.accent);
+            for at in places.into_iter().map(place).filter(|&at| rect.expand(10.0).contains(at)) {
+                painter.circle(at, 6.0, color32(lab.theme.background), Stroke::new(2.0, accent));
+                painter.circle_filled(at, 2.5, accent);
+            }
         }
         if let Some(knot) = lab.selection.knot
             && let Ok(at) = curve.evaluate(knot)
@@ -121,6 +143,28 @@ fn paint_bead(lab: &Lab, curve: &Nurbs<DVec2>, index: usize, bead: Pos2, point: 
         theme.text,
         theme.background,
     );
+}
+
+/// The ring, its ray, and the weight where no bead shows it.
+fn paint_ring(
+    lab: &Lab,
+    curve: &Nurbs<DVec2>,
+    index: usize,
+    ring: Pos2,
+    point: Pos2,
+    has_bead: bool,
+    painter: &Painter,
+) {
+    let ink = color32(lab.theme.warning);
+    let way = (ring - point).normalized();
+    painter.line_segment([point + way * 8.0, ring - way * 6.0], Stroke::new(1.5, ink.gamma_multiply(0.8)));
+    painter.circle_stroke(ring, 6.0, Stroke::new(2.5, ink));
+    if !has_bead {
+        let text = format!("w = {}", short_number(curve.weights()[index]));
+        let (theme, size) = (&lab.theme, 12.0 * lab.theme.text_scale as f32);
+        let at = ring + vec2(12.0, 0.0);
+        paint_note(painter, at, Align2::LEFT_CENTER, &text, size, theme.text, theme.background);
+    }
 }
 
 fn paint_parameter(lab: &Lab, parameter: f64, at: Pos2, painter: &Painter) {
@@ -225,9 +269,9 @@ fn paint_part(
 }
 
 /// Tells assistive programs (and tests) what can be dragged.
-pub(super) fn announce(lab: &Lab, viewport: &Viewport, rect: Rect, ui: &egui::Ui) {
+pub(super) fn announce(named: Vec<(String, DVec2)>, viewport: &Viewport, rect: Rect, ui: &egui::Ui) {
     let reach = vec2(18.0, 18.0);
-    for (name, at) in named(lab) {
+    for (name, at) in named {
         let area = Rect::from_center_size(screen_from_world(viewport, rect, at), reach);
         if rect.contains_rect(area) {
             let id = ui.make_persistent_id(("handle", &name));
@@ -238,7 +282,7 @@ pub(super) fn announce(lab: &Lab, viewport: &Viewport, rect: Rect, ui: &egui::Ui
 }
 
 /// The handles of the visible curves: accessible name and place in the world.
-pub(super) fn named(lab: &Lab) -> Vec<(String, DVec2)> {
+pub(super) fn named(lab: &Lab, viewport: &Viewport) -> Vec<(String, DVec2)> {
     let mut named = Vec::new();
     for object in lab.history.document().objects().iter().filter(|object| object.visible) {
         let Some(curve) = object.curve() else { continue };
@@ -248,6 +292,23 @@ pub(super) fn named(lab: &Lab) -> Vec<(String, DVec2)> {
                 .extend(points.map(|(index, &at)| (format!("Control point {index} of {}", object.name), at)));
         }
         if lab.selection.object == Some(object.id) {
+            let ring = ring_place(lab, object, viewport, 0.0);
+            named.extend(
+                ring.map(|(index, at)| {
+                    (format!("Weight ring of control point {index} of {}", object.name), at)
+                }),
+            );
+            let count = curve.points().len();
+            if count <= ANNOUNCED {
+                let edges = weight_points(lab, object).into_iter().enumerate();
+                named.extend(edges.map(|(k, at)| {
+                    (format!("Weight point {k} to {} of {}", edge_end(curve, k), object.name), at)
+                }));
+                if let Some(places) = lab.edit_points.then(|| curve.edit_points().ok()).flatten() {
+                    let places = places.into_iter().enumerate();
+                    named.extend(places.map(|(k, at)| (format!("Edit point {k} of {}", object.name), at)));
+                }
+            }
             let parameter = lab.parameter(object.id).and_then(|parameter| curve.evaluate(parameter).ok());
             named.extend(parameter.map(|at| (format!("Parameter of {}", object.name), at)));
             let bead = bead_place(lab, object);

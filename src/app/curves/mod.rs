@@ -1,14 +1,17 @@
 //! The Curves workspace: a canvas on which spline curves are drawn, dragged and looked at.
 
+mod align;
 mod canvas;
 mod commands;
 mod context_menu;
+mod draw_shapes;
 mod draw_tool;
 mod gesture;
 mod handles;
 mod hit;
 mod step_hands;
 mod tools;
+mod weight_handles;
 
 use eframe::egui;
 
@@ -62,7 +65,8 @@ impl Workspace for Curves {
     }
 
     fn handles(&self, lab: &Lab) -> Vec<(String, egui::Pos2)> {
-        handles::named(lab)
+        self.canvas
+            .named(lab)
             .into_iter()
             .filter_map(|(name, at)| Some((name, self.canvas.screen_from_world(at, lab)?)))
             .collect()

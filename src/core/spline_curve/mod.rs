@@ -5,6 +5,8 @@
 //! | `nurbs` | 6.1 the rational curve |
 //! | `batch` | many points at once |
 //! | `editing` | 6.1 replaced points and weights, reversed, opened and closed curves, the circle |
+//! | `least_norm_move`, `edit_points` | a point of the curve moved, alone or with other points kept |
+//! | `fitting`, `fitting_stroke` | B.16 least squares for sequences of points, strokes |
 //! | `trim`, `join` | 6.1 a part of a curve, both sides of a parameter, two curves as one |
 //! | `hull` | 6.2 hull and box of the active control points |
 //! | `distance_bound` | 6.2 distance of curve and control polygon |
@@ -46,7 +48,10 @@ mod degree;
 mod degree_reduction;
 mod deviation;
 mod distance_bound;
+mod edit_points;
 mod editing;
+mod fitting;
+mod fitting_stroke;
 mod foot_points;
 mod foot_polynomial;
 mod from_bezier;
@@ -61,6 +66,7 @@ mod join;
 mod knot_insertion;
 mod knot_removal;
 mod knot_rule;
+mod least_norm_move;
 mod line_intersection;
 mod local_piece;
 mod nearest_spline;
@@ -90,6 +96,10 @@ pub use degree::elevation_matrix;
 pub use degree_reduction::{DegreeReduction, ReductionEnds};
 pub use deviation::{Deviation, DeviationLimits, deviation, deviation_within};
 pub use distance_bound::{PolygonDistance, uniform_distance_factor};
+pub use fitting::{
+    FitEnds, FittingError, correct_parameters, fit_least_squares, foot_steps, parameters, spread_knots,
+};
+pub use fitting_stroke::{FitOptions, StrokeFit, fit_stroke};
 pub use foot_points::{FootKind, StationaryDistance};
 pub use hausdorff::hausdorff_sampled;
 pub use hull::{convex_hull, coordinate_ranges};

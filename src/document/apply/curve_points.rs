@@ -57,6 +57,29 @@ pub(super) fn transform(
     map_points(document, object, points, |point| about + matrix * (point - about))
 }
 
+pub(super) fn move_curve_at(
+    document: &mut Document,
+    object: ObjectId,
+    at: f64,
+    delta: DVec2,
+) -> Result<Outcome, EditError> {
+    check_finite("the displacement", delta)?;
+    document.change_curve(object, |curve| Ok((curve.moved_at(at, delta)?, ShapeChange::None)))
+}
+
+pub(super) fn move_edit_point(
+    document: &mut Document,
+    object: ObjectId,
+    point: usize,
+    delta: DVec2,
+) -> Result<Outcome, EditError> {
+    check_finite("the displacement", delta)?;
+    document.change_curve(object, |curve| {
+        check_indices(object, curve, &[point])?;
+        Ok((curve.with_edit_point_moved(point, delta)?, ShapeChange::None))
+    })
+}
+
 pub(super) fn set_weight(
     document: &mut Document,
     object: ObjectId,

@@ -89,6 +89,12 @@ impl Document {
                 curve_points::set_point(self, *object, *point, *position)
             }
             Edit::SetPoints { object, positions } => curve_points::set_points(self, *object, positions),
+            Edit::MoveCurveAt { object, at, delta } => {
+                curve_points::move_curve_at(self, *object, *at, *delta)
+            }
+            Edit::MoveEditPoint { object, point, delta } => {
+                curve_points::move_edit_point(self, *object, *point, *delta)
+            }
             Edit::SetWeight { object, point, weight } => {
                 curve_points::set_weight(self, *object, *point, *weight)
             }
