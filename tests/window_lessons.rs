@@ -253,6 +253,23 @@ fn a_knot_moves_while_the_parabola_stays() {
     }
 }
 
+#[test]
+fn weight_points_next_to_a_point_draw_the_curve_towards_it() {
+    let mut window = at("3.1");
+    let distance = |window: &Window| {
+        let curve = lab(window).curve().unwrap();
+        curve.evaluate(0.6).unwrap().distance(curve.points()[2])
+    };
+    let before = distance(&window);
+    press(&mut window, Key::W);
+    for (edge, by) in [("1 to 2", vec2(-43.0, -22.0)), ("2 to 3", vec2(-43.0, 11.0))] {
+        let from = window.get_by_label(&format!("Weight point {edge} of Rational cubic")).rect().center();
+        drag_by(&mut window, from, by);
+    }
+    let after = distance(&window);
+    assert!(after < 0.8 * before, "from {before} to {after}");
+}
+
 /// Clicks a number field, types, and ends with Enter.
 fn type_into(window: &mut Window, label: &str, text: &str) {
     window.get_by_label(label).click();
