@@ -10,7 +10,7 @@ use crate::app::number_text::parse_list;
 use crate::app::painter::{color32, paint_note_at_pointer, screen_from_world, world_from_screen};
 use crate::core::spline_curve::{FitOptions, FittingError, Nurbs, fit_stroke};
 use crate::course::number_text::parse_number;
-use crate::document::{CurveDisplay, Edit};
+use crate::document::{CurveDisplay, Edit, ObjectId};
 use crate::figure::composition::short_number;
 use crate::figure::picture::Viewport;
 
@@ -39,12 +39,53 @@ pub(super) struct Drawing {
     stroke: Vec<DVec2>,
     /// The number that is being typed.
     typed: String,
+    /// The stroke fitted last.
+    fitted: Option<FittedStroke>,
+}
+
+/// A stroke that became a curve; as long as the curve is as it was made, another tolerance fits it again.
+#[derive(Debug)]
+struct FittedStroke {
+    object: ObjectId,
+    stroke: Vec<DVec2>,
+    closed: bool,
+    /// Pixels per unit when it was drawn.
+    scale: f64,
+    /// In pixels.
+    tolerance: f64,
+    curve: Nurbs<DVec2>,
 }
 
 impl Drawing {
     /// Forgets what is unfinished.
     pub(super) fn clear(&mut self) {
-        *self = Self { mode: self.mode, ..Self::default() };
+        *self = Self { mode: self.mode, fitted: self.fitted.take(), ..Self::default() };
+    }
+
+    /// While another tool is taken up: nothing is unfinished, and a changed tolerance fits the last stroke again.
+    ///
+    /// Not while the button is `held`, so that a dragged tolerance is one step.
+    pub(super) fn rest(&mut self, lab: &mut Lab, held: bool) {
+        self.clear();
+        lab.drawn = (0, 0);
+        let Some(fitted) = &mut self.fitted else { return };
+        if fitted.tolerance.to_bits() == lab.stroke_tolerance.to_bits() || held {
+            return;
+        }
+        if lab.history.document().curve(fitted.object) != Some(&fitted.curve) {
+            self.fitted = None;
+            return;
+        }
+        fitted.tolerance = lab.stroke_tolerance;
+        match fit(&fitted.stroke, fitted.closed, fitted.tolerance, fitted.scale) {
+            Ok((curve, note)) => {
+                fitted.curve = curve.clone();
+                let (object, label) = (fitted.object, "Fit the stroke again".to_owned());
+                lab.edit(Edit::ReplaceCurve { object, curve, label });
+                lab.shape_note = Some(note);
+            }
+            Err(reason) => lab.problem(reason),
+        }
     }
 
     /// Takes back the last point; `false` if there is none.
@@ -353,25 +394,22 @@ impl Drawing {
         let closed = farthest > 4.0 * CLOSING_REACH
             && stroke.len() > 8
             && on_screen(last).distance(on_screen(first)) <= CLOSING_REACH;
-        let options = FitOptions {
-            degree: 3,
-            tolerance: lab.stroke_tolerance / viewport.scale,
-            corner_angle: CORNER_ANGLE,
-            closed,
-            most_points: MOST_POINTS,
-        };
-        let fit = match fit_stroke(&stroke, &options) {
-            Ok(fit) => fit,
-            Err(FittingError::StepLimit { best }) => *best,
-            Err(error) => return lab.problem(error.to_string()),
-        };
-        let (count, error) = (fit.curve.points().len(), fit.max_error * viewport.scale);
-        self.make(Ok(vec![fit.curve]), lab);
-        lab.shape_note = Some(format!(
-            "{} points drawn, {count} control points; the curve is within {} px of them.",
-            stroke.len(),
-            short_number(error)
-        ));
+        let (tolerance, scale) = (lab.stroke_tolerance, viewport.scale);
+        match fit(&stroke, closed, tolerance, scale) {
+            Ok((curve, note)) => {
+                self.make(Ok(vec![curve.clone()]), lab);
+                lab.shape_note = Some(note);
+                self.fitted = lab.selection.object.map(|object| FittedStroke {
+                    object,
+                    stroke,
+                    closed,
+                    scale,
+                    tolerance,
+                    curve,
+                });
+            }
+            Err(reason) => lab.problem(reason),
+        }
     }
 
     /// The points clicked, by the names of their handles.
@@ -485,6 +523,29 @@ impl Drawing {
             _ => format!("{}; {}", number(place.x), number(place.y)),
         })
     }
+}
+
+/// The curve along a stroke within `tolerance` pixels of `scale` to a unit, and what it is in a sentence.
+fn fit(stroke: &[DVec2], closed: bool, tolerance: f64, scale: f64) -> Result<(Nurbs<DVec2>, String), String> {
+    let options = FitOptions {
+        degree: 3,
+        tolerance: tolerance / scale,
+        corner_angle: CORNER_ANGLE,
+        closed,
+        most_points: MOST_POINTS,
+    };
+    let fit = match fit_stroke(stroke, &options) {
+        Ok(fit) => fit,
+        Err(FittingError::StepLimit { best }) => *best,
+        Err(error) => return Err(error.to_string()),
+    };
+    let note = format!(
+        "{} points drawn, {} control points; the curve is within {} px of them.",
+        stroke.len(),
+        fit.curve.points().len(),
+        short_number(fit.max_error * scale)
+    );
+    Ok((fit.curve, note))
 }
 
 /// Points of the curve, close enough for a preview.
