@@ -513,6 +513,22 @@ fn a_dragged_edit_point_moves_alone_on_the_curve() {
 }
 
 #[test]
+fn a_frame_selects_points_that_are_dragged_together() {
+    let mut window = window(Some(wave()));
+    let (from, to) = (at(&window, -4.6, 4.0), at(&window, -1.4, 2.6));
+    drag(&mut window, from, to - from);
+    let chosen: Vec<usize> = lab(&window).selection.points.iter().copied().collect();
+    assert_eq!(chosen, [1, 2], "what is inside the frame");
+    let grip = handle(&window, "Control point 1 of T");
+    drag(&mut window, grip, vec2(0.0, 50.0));
+    let after = curve(&window);
+    assert_eq!(moved(&wave(), &after), [1, 2], "both move");
+    assert!((after.points()[2].y - 2.0).abs() < 1e-9, "by the same way: {}", after.points()[2]);
+    undo(&mut window);
+    assert_eq!(curve(&window), wave(), "one step back");
+}
+
+#[test]
 fn selected_points_come_into_line() {
     let mut window = window(Some(wave()));
     for k in [1, 2, 4] {

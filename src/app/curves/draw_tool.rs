@@ -463,6 +463,7 @@ impl Drawing {
                 .add(Shape::line(samples(curve).into_iter().map(on_screen).collect(), Stroke::new(2.5, ink)));
         }
         let help: Vec<Pos2> = match (self.mode, &places[..]) {
+            (DrawMode::Arc, &[start, way]) => [start, way].map(on_screen).to_vec(),
             (DrawMode::Through | DrawMode::Arc | DrawMode::ConicFive, _) => Vec::new(),
             (DrawMode::Ellipse, &[center, first, second]) => {
                 let (u, v) = half_axes(center, first, second);

@@ -5,7 +5,7 @@ use eframe::egui::{Button, PopupCloseBehavior, Ui};
 
 use crate::app::command::Command;
 use crate::app::command_state::{is_on, key_text};
-use crate::app::lab::{DrawMode, Lab};
+use crate::app::lab::{DrawMode, Lab, Tool};
 use crate::app::number_field::{Drag, NumberEvent, NumberField, positive};
 use crate::app::toolbar::button;
 
@@ -14,7 +14,8 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui) {
     button("Draw", Command::DrawTool, lab, ui);
     // A click into the field of the tolerance must not shut the menu.
     let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
-    MenuButton::new("Shapes").config(config).ui(ui, |ui| {
+    let shapes = Button::selectable(lab.tool == Tool::Draw && lab.draw_mode != DrawMode::Points, "Shapes");
+    MenuButton::from_button(shapes).config(config).ui(ui, |ui| {
         ui.set_min_width(230.0);
         for mode in DrawMode::ALL {
             let command = mode.command();
