@@ -10,7 +10,7 @@ use std::hint::black_box;
 use glam::DVec2;
 use report::{check, load, measure};
 use spline_lab::core::bspline::{EndKnots, SplineSpace};
-use spline_lab::core::spline_curve::Nurbs;
+use spline_lab::core::spline_curve::{IntersectionTree, Nurbs};
 
 fn main() {
     let one = curve("x1", 50, |s| 0.3 * (25.0 * s).sin());
@@ -20,6 +20,10 @@ fn main() {
     measure("W12-curve-curve", 1, "Nurbs::intersections, nothing prepared", || {
         black_box(one.intersections(&other, 1e-10).expect("few pairs"));
     });
+    let trees = [&one, &other].map(|curve| IntersectionTree::new(curve).expect("small numbers"));
+    measure("W12-curve-curve", 1, "IntersectionTree::intersections, both trees prepared", || {
+        black_box(trees[0].intersections(&trees[1], 1e-10).expect("few pairs"));
+    });
     check(
         "W12-curve-line",
         &format!("\"hits\": {}", one.intersect_line(DVec2::Y, 0.1, 1e-12).expect("a line").len()),
@@ -27,10 +31,20 @@ fn main() {
     measure("W12-curve-line", 1, "Nurbs::intersect_line, nothing prepared", || {
         black_box(one.intersect_line(DVec2::Y, 0.1, 1e-12).expect("a line"));
     });
+    measure("W12-curve-line", 1, "IntersectionTree::intersect_line, tree prepared", || {
+        black_box(trees[0].intersect_line(DVec2::Y, 0.1, 1e-12).expect("a line"));
+    });
+    measure("W12-prepare", 1, "IntersectionTree::new", || {
+        black_box(IntersectionTree::new(&one).expect("small numbers"));
+    });
     measure("W12-self", 1, "Nurbs::self_intersections, none there", || {
         black_box(one.self_intersections(1e-10).expect("few pairs"));
     });
     let long = [25.0, 37.0].map(|w| curve("", 500, |s| 0.3 * (w * s).sin()));
+    let trees = [0, 1].map(|i| IntersectionTree::new(&long[i]).expect("small numbers"));
+    measure("W12-curve-curve-500", 1, "IntersectionTree::intersections, as many, prepared", || {
+        black_box(trees[0].intersections(&trees[1], 1e-10).expect("few pairs"));
+    });
     measure("W12-curve-curve-500", 1, "Nurbs::intersections of curves with 500 control points", || {
         black_box(long[0].intersections(&long[1], 1e-10).expect("few pairs"));
     });

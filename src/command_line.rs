@@ -7,9 +7,11 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand, ValueEnum};
 use glam::DVec2;
 
+use crate::core::progress::Unwatched;
 use crate::course::lessons;
-use crate::document::{self, Document};
+use crate::document::{self, Document, StepperKind};
 use crate::exchange::by_ending::{self, FigureFormat, figure, read_document};
+use crate::exchange::frames;
 use crate::figure::elements;
 use crate::figure::page::{has_free_height, page};
 use crate::figure::picture::Viewport;
@@ -56,6 +58,15 @@ enum Job {
         /// Pixels per pt of a PNG
         #[arg(long, default_value_t = 3.0, value_name = "N")]
         scale: f64,
+        /// All frames of the algorithm of the document instead: numbered .svg or .png, one .pdf, or a .tex slide of beamer
+        #[arg(long)]
+        frames: bool,
+        /// The algorithm of the frames; that of the document by default
+        #[arg(long, value_name = "NAME", requires = "frames", value_parser = algorithm)]
+        algorithm: Option<StepperKind>,
+        /// The parameter of the frames; that of the document by default
+        #[arg(long, value_name = "T", requires = "frames", allow_negative_numbers = true)]
+        at: Option<f64>,
     },
     /// Writes a document in another format: .spline, or .svg with the document inside
     Convert {
@@ -95,7 +106,10 @@ pub fn run() -> ExitCode {
     let arguments = Arguments::parse();
     let done = match arguments.job {
         None => open_window(arguments.file),
-        Some(Job::Figure { file, output, width, height, theme, scale }) => {
+        Some(Job::Figure { file, output, width, height, theme, scale, frames: true, algorithm, at }) => {
+            write_all_frames(&file, &output, (width, height), &theme.theme(), scale, (algorithm, at))
+        }
+        Some(Job::Figure { file, output, width, height, theme, scale, .. }) => {
             write_figure(&file, &output, width, height, &theme.theme(), scale)
         }
         Some(Job::Convert { input, output }) => convert(&input, &output),
@@ -163,6 +177,42 @@ fn write_figure(
     let bytes = figure(format, &picture, &viewport, &saved.document, &saved.view, scale);
     let bytes = bytes.map_err(|error| error.to_string())?;
     by_ending::write_file(output, &bytes).map_err(|error| error.to_string())
+}
+
+/// The algorithm that is called `name` in files.
+fn algorithm(name: &str) -> Result<StepperKind, String> {
+    let found = StepperKind::ALL.into_iter().find(|kind| kind.key() == name);
+    found.ok_or_else(|| format!("it is one of {}", StepperKind::ALL.map(StepperKind::key).join(", ")))
+}
+
+fn write_all_frames(
+    file: &Path,
+    output: &Path,
+    (width, height): (f64, Option<f64>),
+    theme: &Theme,
+    scale: f64,
+    (algorithm, at): (Option<StepperKind>, Option<f64>),
+) -> Result<(), String> {
+    let mut saved = read_document(file).map_err(|error| error.to_string())?;
+    saved.view.stepper = algorithm.unwrap_or(saved.view.stepper);
+    if let Some(at) = at {
+        let (object, curve) =
+            frames::curve_of_frames(&saved.document, &saved.view).map_err(|error| error.to_string())?;
+        let (left, right) = curve.space().parameter_interval();
+        if !(left..=right).contains(&at) {
+            return Err(format!("{at} lies outside [{left}, {right}], the interval of {}", object.name));
+        }
+        saved.view.parameters.insert(object.id, at);
+    }
+    let viewport = paper(&saved.document, width, height)?;
+    let written =
+        frames::write_frames(output, &saved.document, &saved.view, theme, &viewport, scale, &Unwatched)
+            .map_err(|error| error.to_string())?;
+    match &written[..] {
+        [only] => say(&only.display().to_string()),
+        [first, .., last] => say(&format!("{} to {}", first.display(), last.display())),
+        [] => Ok(()),
+    }
 }
 
 /// The page of the given width that shows all visible objects; its height follows from theirs unless it is given.

@@ -73,6 +73,32 @@ fn figures_have_the_format_of_their_ending() {
 }
 
 #[test]
+fn frames_are_numbered_files_pages_or_overlays() {
+    let folder = folder_with_scene();
+    let frames = |output: &str, algorithm: &str| {
+        run(folder.path(), &["figure", "scene.spline", "--frames", "--algorithm", algorithm, "-o", output])
+    };
+    let output = frames("steps.svg", "differentiation");
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert!(text(&output.stdout).contains("steps-01.svg to steps-"), "{}", text(&output.stdout));
+    let first = fs::read_to_string(folder.path().join("steps-01.svg")).expect("the first frame");
+    let second = fs::read_to_string(folder.path().join("steps-02.svg")).expect("the second frame");
+    assert!(first.contains("<svg") && first != second, "frames differ");
+    assert!(frames("steps.pdf", "bezier-form").status.success(), "a PDF");
+    assert!(fs::read(folder.path().join("steps.pdf")).expect("it").starts_with(b"%PDF"), "a PDF");
+    assert!(frames("steps.tex", "blossom").status.success(), "a slide");
+    let slide = fs::read_to_string(folder.path().join("steps.tex")).expect("the slide");
+    assert!(slide.contains("\\only<1-1>") && slide.contains("\\begin{frame}"), "overlays");
+    let outside =
+        run(folder.path(), &["figure", "scene.spline", "--frames", "--at", "-7", "-o", "steps.svg"]);
+    assert!(text(&outside.stderr).contains("-7 lies outside"), "{}", text(&outside.stderr));
+    let refused = frames("steps.svg", "rational-de-casteljau");
+    assert!(text(&refused.stderr).contains("weights are equal"), "{}", text(&refused.stderr));
+    let unknown = frames("steps.svg", "de-moivre");
+    assert!(text(&unknown.stderr).contains("knot-insertion"), "{}", text(&unknown.stderr));
+}
+
+#[test]
 fn what_cannot_be_done_is_said_and_ends_with_1() {
     let folder = folder_with_scene();
     for (arguments, word) in [

@@ -4,7 +4,7 @@
 
 use glam::{DMat2, DVec2};
 use spline_lab::core::bspline::SplineSpace;
-use spline_lab::core::spline_curve::Nurbs;
+use spline_lab::core::spline_curve::{KnotRule, Nurbs};
 use spline_lab::document::{
     CurveDisplay, Document, Edit, History, ObjectId, PointLabels, View, first_scene, to_json,
 };
@@ -63,7 +63,7 @@ impl Random {
         let at = left + (right - left) * (self.number() * 1.1 - 0.05);
         let old = knots[self.below(knots.len())];
         // Documents that only grow make the test slow.
-        let mut kind = self.below(31);
+        let mut kind = self.below(34);
         if count > 40 && (kind == 13 || kind == 17) {
             kind = 22;
         }
@@ -114,8 +114,14 @@ impl Random {
             },
             26 => Edit::ReplaceCurve { object, curve: self.curve(), label: "Draw again".to_owned() },
             27 => Edit::SetKnots { object, knots: knots.iter().map(|knot| 2.0 * knot).collect() },
-            28 => Edit::MoveCurveAt { object, at, delta: self.point() },
-            29 => Edit::MoveEditPoint { object, point: self.below(count + 1), delta: self.point() },
+            28 => Edit::GenerateKnots { object, rule: KnotRule::ALL[self.below(5)] },
+            29 => Edit::RemoveKnotsWithin { object, tolerance: self.number() - 0.1 },
+            30 => {
+                let edit = Edit::MoveKnot { object, knot: self.below(knots.len()), to: at };
+                Edit::KeepCurve { edit: Box::new(edit) }
+            }
+            31 => Edit::MoveCurveAt { object, at, delta: self.point() },
+            32 => Edit::MoveEditPoint { object, point: self.below(count + 1), delta: self.point() },
             _ if depth < 2 => {
                 let edits = (0..self.below(4)).map(|_| self.edit(document, depth + 1)).collect();
                 Edit::Batch { label: "Several".to_owned(), edits }

@@ -23,6 +23,8 @@ pub(crate) fn key_text(command: Command, ctx: &Context) -> Option<String> {
     let sign = match key {
         "OpenBracket" => "[",
         "CloseBracket" => "]",
+        "Period" => ".",
+        "Comma" => ",",
         "PageUp" => "Page up",
         "PageDown" => "Page down",
         other => other,
@@ -39,6 +41,8 @@ pub(crate) fn is_possible(command: Command, lab: &Lab) -> bool {
         return surfaces::is_possible(command, lab);
     }
     match command {
+        Command::BackToExample => lab.lesson.is_some(),
+        Command::ExportFrames => lab.curve().is_some(),
         Command::Undo => lab.undo_name().is_some(),
         Command::Redo => lab.redo_name().is_some(),
         Command::ExportFigure => !lab.history.document().is_empty(),
@@ -65,7 +69,16 @@ pub(crate) fn is_possible(command: Command, lab: &Lab) -> bool {
         Command::AlignX | Command::AlignY => lab.curve().is_some() && lab.selection.points.len() > 1,
         Command::AlignGrid => lab.curve().is_some() && !lab.selection.points.is_empty(),
         Command::Distribute => lab.curve().is_some() && lab.selection.points.len() > 2,
-        Command::ToggleEditPoints
+        Command::RemoveKnotsWithin
+        | Command::NextKnot
+        | Command::PreviousKnot
+        | Command::UniformKnots
+        | Command::EndInterpolatingKnots
+        | Command::ChordLengthKnots
+        | Command::CentripetalKnots
+        | Command::AveragedKnots
+        | Command::ToggleBuilder
+        | Command::ToggleEditPoints
         | Command::ToggleWeightPoints
         | Command::InsertKnot
         | Command::RefineUniformly
@@ -79,7 +92,9 @@ pub(crate) fn is_possible(command: Command, lab: &Lab) -> bool {
         | Command::ToggleCircle
         | Command::StepperPlay
         | Command::StepForward
-        | Command::StepBack => lab.curve().is_some(),
+        | Command::StepBack
+        | Command::NextAlgorithm
+        | Command::PreviousAlgorithm => lab.curve().is_some(),
         _ => true,
     }
 }
@@ -126,6 +141,8 @@ pub(crate) fn is_on(command: Command, lab: &Lab) -> Option<bool> {
         Command::ToggleLeftPanel => panel(LEFT_PANEL),
         Command::ToggleRightPanel => panel(RIGHT_PANEL),
         Command::ToggleKnotLine => panel(KNOT_LINE),
+        Command::ToggleKeepCurve => lab.knots.keep_curve,
+        Command::ToggleBuilder => lab.knots.builder.is_some(),
         Command::LookLight => lab.theme.name == "light",
         Command::LookDark => lab.theme.name == "dark",
         Command::LookPresentation => lab.theme.name == "presentation",

@@ -3,16 +3,18 @@
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
+use std::rc::Rc;
 
 use glam::DVec2;
 
 use crate::app::command::Command;
 use crate::app::sheet::{Sheet, Shelf};
+use crate::app::story_cache::StoryCache;
 use crate::app::workspace::Room;
 use crate::core::spline_curve::Nurbs;
 use crate::course::{Lesson, Stepper, Verdict};
 use crate::document::{
-    Approximation, Document, Edit, EditError, History, ObjectId, Outcome, ShapeChange, View,
+    Approximation, Document, Edit, EditError, History, ObjectId, Outcome, ShapeChange, StepperKind, View,
 };
 use crate::figure::theme::Theme;
 
@@ -108,6 +110,36 @@ pub struct StepperState {
     pub elapsed: f64,
 }
 
+/// What hands do to knots, and what the knot line shows.
+#[derive(Clone, Debug)]
+pub struct KnotHands {
+    /// Whether the curve stays, nearly, while knots move; else the control points stay.
+    pub keep_curve: bool,
+    /// Largest deviation when knots are removed that the curve does not need.
+    pub tolerance: f64,
+    /// The builder of one B-spline, if it is shown in place of the basis.
+    pub builder: Option<BasisBuilder>,
+}
+
+impl Default for KnotHands {
+    fn default() -> Self {
+        Self { keep_curve: false, tolerance: 0.01, builder: None }
+    }
+}
+
+/// One B-spline as two of lower degree.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BasisBuilder {
+    /// Index of the B-spline.
+    pub spline: usize,
+    /// Degree of what is taken apart.
+    pub degree: usize,
+    /// Which of that degree, counted from the left.
+    pub part: usize,
+    /// From 0, both parts on the axis, to 1, one upon the other.
+    pub slide: f64,
+}
+
 /// The lesson that is open.
 #[derive(Clone, Debug)]
 pub struct LessonState {
@@ -152,6 +184,8 @@ pub struct Lab {
     pub hovered: Hovered,
     /// What is found under the pointer in this frame; becomes [`Self::hovered`].
     pub hovering: Hovered,
+    /// The control points that go with the entry under the pointer, while [`Self::hovered`] is an entry.
+    pub entry_partners: Vec<usize>,
     /// The tool.
     pub tool: Tool,
     /// What the drawing tool draws.
@@ -170,6 +204,8 @@ pub struct Lab {
     pub side: SidePage,
     /// The stepper panel.
     pub stepper: StepperState,
+    /// The knot line.
+    pub knots: KnotHands,
     /// The open lesson, if any.
     pub lesson: Option<LessonState>,
     /// What the last operation did to the shape, as a sentence for the status line.
@@ -180,6 +216,8 @@ pub struct Lab {
     pub commands: Vec<Command>,
     /// Size of the canvas in points in the last frame.
     pub canvas_size: DVec2,
+    /// The last story of the stepper.
+    pub story_cache: StoryCache,
     /// Whether long work is done within the frame instead of beside it: for tests, which then need not wait.
     pub at_once: bool,
 }
@@ -197,6 +235,7 @@ impl Lab {
             selection: sheet.selection,
             hovered: Hovered::Nothing,
             hovering: Hovered::Nothing,
+            entry_partners: Vec::new(),
             tool: Tool::Select,
             draw_mode: DrawMode::Points,
             drawn: (0, 0),
@@ -206,11 +245,13 @@ impl Lab {
             theme: Theme::light(),
             side: SidePage::Inspector,
             stepper: StepperState::default(),
+            knots: KnotHands::default(),
             lesson: None,
             shape_note: None,
             messages: Vec::new(),
             commands: Vec::new(),
             canvas_size: DVec2::new(800.0, 600.0),
+            story_cache: StoryCache::default(),
             at_once: false,
         }
     }
@@ -318,11 +359,25 @@ impl Lab {
         self.history.commit();
     }
 
-    /// The stepper of the selected curve at its parameter.
-    pub fn scheme(&self) -> Option<Stepper> {
+    /// The chosen algorithm on the selected curve at its parameter.
+    pub fn scheme(&self) -> Option<Rc<Stepper>> {
+        self.told_scheme()?.ok()
+    }
+
+    /// As [`Self::scheme`], or a sentence that says why there is none; `None` without a curve.
+    pub fn told_scheme(&self) -> Option<Result<Rc<Stepper>, String>> {
         let object = self.selection.object?;
         let parameter = self.parameter(object)?;
-        crate::course::de_boor_stepper(self.history.document().curve(object)?, parameter).ok()
+        let object = self.history.document().object(object)?;
+        self.story_cache.told(object, self.view.stepper, parameter, &self.view.stepper_choices)
+    }
+
+    /// Chooses the algorithm that is told, from its first frame.
+    pub fn set_stepper(&mut self, kind: StepperKind) {
+        if self.view.stepper != kind {
+            self.view.stepper = kind;
+            self.stepper = StepperState { open: self.stepper.open, ..StepperState::default() };
+        }
     }
 
     /// What Undo would take back: a point of the drawing under way, else the last step.
@@ -364,7 +419,9 @@ impl Lab {
         {
             self.selection.knot = None;
         }
-        if let Some(stepper) = self.scheme() {
+        if self.stepper.open
+            && let Some(stepper) = self.scheme()
+        {
             self.stepper.frame = self.stepper.frame.min(stepper.frames().len().saturating_sub(1));
         }
     }

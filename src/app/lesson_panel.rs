@@ -1,29 +1,62 @@
 //! The list of lessons, and the open lesson: text, formula, things to try, a question.
 
-use eframe::egui::{Align, Button, Frame, Key, Label, Layout, RichText, ScrollArea, TextEdit, Ui};
+use eframe::egui::{
+    Align, Button, Color32, Frame, Key, Label, Layout, Modifiers, Rect, RichText, ScrollArea, Stroke,
+    TextEdit, Ui, vec2,
+};
 
 use crate::app::command::Command;
 use crate::app::lab::{Lab, LessonState};
 use crate::app::painter::color32;
 use crate::app::{files, formula_view};
-use crate::course::{Answer, FitTask, Task, lessons};
+use crate::course::{Answer, FitTask, Task, chapter_title, lessons};
 
 /// Shows the lessons in the order of the course; a click opens one.
 pub(crate) fn show_list(lab: &mut Lab, ui: &mut Ui) {
     ui.heading("Lessons");
     let open = lab.lesson.as_ref().map(|state| state.index);
+    let seen_id = ui.make_persistent_id("lesson in the list");
+    let seen: Option<usize> = ui.data(|data| data.get_temp(seen_id)).flatten();
+    ui.data_mut(|data| data.insert_temp(seen_id, open));
     let mut chosen = None;
     ScrollArea::vertical().id_salt("lessons").auto_shrink([false, false]).show(ui, |ui| {
+        let mut chapter = 0;
         for (index, lesson) in lessons().iter().enumerate() {
+            if lesson.chapter() != chapter {
+                chapter = lesson.chapter();
+                ui.add_space(if index == 0 { 0.0 } else { 5.0 });
+                ui.label(RichText::new(format!("{chapter}  {}", chapter_title(chapter))).weak().small());
+            }
             let button = Button::selectable(open == Some(index), lesson.heading()).wrap();
             let response = ui.with_layout(Layout::top_down_justified(Align::LEFT), |ui| ui.add(button)).inner;
-            if response.on_hover_text(format!("Open the lesson of section {}", lesson.section)).clicked() {
+            if open == Some(index) && seen != open {
+                // Turned to with a key, it may be out of sight.
+                response.scroll_to_me(Some(Align::Center));
+            }
+            let answered = lab.shelf.answered.contains(&index);
+            if answered {
+                tick(ui, response.rect, color32(lab.theme.basis_color(2)));
+            }
+            let also = if answered { "; its question is answered" } else { "" };
+            if response
+                .on_hover_text(format!("Open the lesson of section {}{also}", lesson.section))
+                .clicked()
+            {
                 chosen = Some(index);
             }
         }
     });
     if let Some(index) = chosen {
         files::open_lesson(lab, index);
+    }
+}
+
+/// A tick at the right end of a row.
+fn tick(ui: &Ui, row: Rect, color: Color32) {
+    let at = row.right_center() - vec2(13.0, 0.0);
+    let stroke = Stroke::new(2.0, color);
+    for (from, to) in [((0.0, 0.0), (3.0, 3.5)), ((3.0, 3.5), (8.0, -4.0))] {
+        ui.painter().line_segment([at + vec2(from.0, from.1), at + vec2(to.0, to.1)], stroke);
     }
 }
 
@@ -35,7 +68,7 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
         ui.label(RichText::new("Choose a lesson on the left, or with PageDown.").weak());
         return;
     };
-    let (mut restart, mut leave) = (false, false);
+    let mut leave = false;
     ScrollArea::vertical().id_salt(("lesson", state.index)).auto_shrink([false, false]).show(ui, |ui| {
         ui.add_space(2.0);
         text(lab, ui, &state);
@@ -44,7 +77,10 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
         ui.add_space(8.0);
         ui.separator();
         ui.horizontal_wrapped(|ui| {
-            restart = ui.button("Start again").on_hover_text("Show the lesson as it was at first").clicked();
+            let (words, hint) = Command::BackToExample.text();
+            if ui.button(words).on_hover_text(hint).clicked() {
+                lab.commands.push(Command::BackToExample);
+            }
             leave = ui
                 .button("Back to my document")
                 .on_hover_text("Close the lesson; work on it is kept")
@@ -52,9 +88,7 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
         });
     });
     lab.lesson = Some(state);
-    if restart {
-        files::restart_lesson(lab);
-    } else if leave {
+    if leave {
         files::back_to_document(lab);
     }
 }
@@ -62,9 +96,16 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
 fn text(lab: &mut Lab, ui: &mut Ui, state: &LessonState) {
     let lesson = &state.lesson;
     ui.horizontal(|ui| {
+        let count = lessons().len();
         ui.label(RichText::new(format!("Section {}", lesson.section)).weak());
+        let place = ui.label(RichText::new(format!("{} of {count}", state.index + 1)).weak().small());
+        let chapter = lesson.chapter();
+        place.on_hover_text(format!(
+            "Lesson {} of {count}; chapter {chapter}, {}",
+            state.index + 1,
+            chapter_title(chapter)
+        ));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let count = lessons().len();
             for (command, text, enabled) in [
                 (Command::NextLesson, "Next", state.index + 1 < count),
                 (Command::PreviousLesson, "Previous", state.index > 0),
@@ -97,7 +138,11 @@ fn text(lab: &mut Lab, ui: &mut Ui, state: &LessonState) {
     ui.label(RichText::new("Things to try").strong());
     for (index, thing) in lesson.things_to_try.iter().enumerate() {
         ui.horizontal_top(|ui| {
-            ui.label(RichText::new(format!("{}.", index + 1)).color(color32(lab.theme.accent)));
+            let width = 14.0 * lab.theme.text_scale as f32;
+            ui.allocate_ui(vec2(width, 0.0), |ui| {
+                ui.set_min_width(width);
+                ui.label(RichText::new(format!("{}.", index + 1)).color(color32(lab.theme.accent)));
+            });
             ui.vertical(|ui| formula_view::rich_paragraph(ui, thing));
         });
     }
@@ -122,7 +167,9 @@ fn question(lab: &mut Lab, ui: &mut Ui, state: &mut LessonState) {
                     let edit =
                         TextEdit::singleline(&mut state.answer).desired_width(width).hint_text("a number");
                     let field = ui.add(edit).accessible_name("Answer");
-                    let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+                    // Taken away, as Enter would also play the construction.
+                    let entered = field.lost_focus()
+                        && ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Enter));
                     if field.changed() {
                         state.verdict = None;
                     }
@@ -152,7 +199,11 @@ fn question(lab: &mut Lab, ui: &mut Ui, state: &mut LessonState) {
             }
         }
         if let Some(answer) = asked {
-            state.verdict = Some(question.check(lab.history.document(), &answer));
+            let verdict = question.check(lab.history.document(), &answer);
+            if verdict.correct {
+                lab.shelf.answered.insert(state.index);
+            }
+            state.verdict = Some(verdict);
         }
         if let Some(verdict) = &state.verdict {
             let color = if verdict.correct { lab.theme.basis_color(2) } else { lab.theme.error };

@@ -48,6 +48,8 @@ fn starts_group(command: Command) -> bool {
             | Command::Delete
             | Command::SelectAll
             | Command::InsertKnot
+            | Command::UniformKnots
+            | Command::RefineUniformly
             | Command::ToggleEditPoints
             | Command::AlignX
             | Command::ElevateDegree
@@ -129,13 +131,7 @@ fn recovered(files: &mut Files, ui: &mut Ui) {
 }
 
 fn lesson_entries(lab: &mut Lab, ui: &mut Ui) {
-    let in_lesson = lab.lesson.is_some();
     ui.separator();
-    let restart = ui.add_enabled(in_lesson, Button::new("Start this lesson over"));
-    if restart.on_hover_text("Show the lesson's document as it was at first").clicked() {
-        files::restart_lesson(lab);
-        ui.close();
-    }
     let back = ui.add_enabled(lab.shelf.own.is_some(), Button::new("Back to my document"));
     if back.on_hover_text("Leave the lesson; your document is as you left it").clicked() {
         files::back_to_document(lab);

@@ -36,6 +36,7 @@ mod shortcut_sheet;
 mod smoke_log;
 mod status_bar;
 mod stepper_panel;
+pub mod story_cache;
 mod surfaces;
 #[cfg(test)]
 mod test_bench;
@@ -53,3 +54,5 @@ pub(crate) const LEFT_PANEL: &str = "left";
 pub(crate) const RIGHT_PANEL: &str = "right";
 /// Entry for the knot line.
 pub(crate) const KNOT_LINE: &str = "knot_line";
+/// Entry for the basis builder, which is shut unless it is there.
+pub(crate) const BASIS_BUILDER: &str = "basis_builder";

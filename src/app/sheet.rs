@@ -1,6 +1,6 @@
 //! A document on the desk or put aside: with its undo, its view and its file.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use crate::app::lab::Selection;
@@ -43,6 +43,8 @@ pub struct Shelf {
     pub own: Option<Sheet>,
     /// Documents of lessons that were worked on, by index of the lesson; kept while the lab runs.
     pub lessons: BTreeMap<usize, Sheet>,
+    /// Lessons whose question has been answered while the lab runs, by index.
+    pub answered: BTreeSet<usize>,
     /// How many documents have come onto the desk.
     pub opened: u64,
     /// How often a document has been saved.

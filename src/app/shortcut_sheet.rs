@@ -7,7 +7,7 @@ use crate::app::command_state::key_text;
 use crate::app::lab::Lab;
 
 /// What the mouse and the arrow keys do.
-const HANDS: [(&str, &str); 20] = [
+const HANDS: [(&str, &str); 25] = [
     ("Click", "Select; with Shift add to the selection"),
     ("Drag a point or a knot", "Move it; Shift keeps to an axis, Ctrl snaps to the grid"),
     ("Drag a curve", "Move it where it was grabbed; only the nearest control points move"),
@@ -26,6 +26,11 @@ const HANDS: [(&str, &str); 20] = [
     ("Arrow keys", "Nudge the selected points"),
     ("Shift + arrow keys", "Nudge by ten steps"),
     ("Ctrl + arrow keys", "Nudge by a tenth of a step"),
+    ("Arrow keys, knot selected", "Move one copy; up adds one, down removes one"),
+    ("Arrow keys, basis builder", "Up and down: degree; left and right: function"),
+    ("Drag a knot on line or dial", "Move one copy, with Shift all; Alt does not snap"),
+    ("Double click on the knot line", "Insert a knot there, shape kept"),
+    ("Escape while dragging", "Take the drag back"),
     ("Ctrl + Y", "Redo"),
     ("Drop a file on the window", "Open it"),
 ];

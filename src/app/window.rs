@@ -17,7 +17,7 @@ use crate::app::{
     LEFT_PANEL, RIGHT_PANEL, files, lesson_panel, look, menu_bar, object_list, scene_view, status_bar,
     stepper_panel, toolbar,
 };
-use crate::document::first_scene;
+use crate::document::{StepperKind, first_scene};
 use crate::figure::theme::Theme;
 
 /// The program with its window.
@@ -276,8 +276,11 @@ impl LabApp {
                 lab.stepper.playing = false;
                 lab.stepper.frame = lab.stepper.frame.saturating_sub(1);
             }
+            Command::NextAlgorithm => turn_algorithm(lab, 1),
+            Command::PreviousAlgorithm => turn_algorithm(lab, StepperKind::ALL.len() - 1),
             Command::NextLesson => turn_page(lab, 1),
             Command::PreviousLesson => turn_page(lab, -1),
+            Command::BackToExample => files::back_to_example(lab),
             Command::Palette => self.palette.open(),
             Command::ShortcutSheet => self.shortcut_sheet.toggle(),
             _ => {}
@@ -322,6 +325,14 @@ fn open_stepper(lab: &mut Lab) {
     lab.view.panels.insert(RIGHT_PANEL.to_owned(), true);
     lab.side = SidePage::Stepper;
     lab.stepper.open = true;
+}
+
+/// Chooses the algorithm that comes `steps` later, around the list.
+fn turn_algorithm(lab: &mut Lab, steps: usize) {
+    open_stepper(lab);
+    let all = StepperKind::ALL;
+    let now = all.iter().position(|&kind| kind == lab.view.stepper).unwrap_or(0);
+    lab.set_stepper(all[(now + steps) % all.len()]);
 }
 
 fn last_frame(lab: &Lab) -> usize {

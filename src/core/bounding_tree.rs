@@ -1,17 +1,17 @@
 //! A binary tree of boxes over items of any kind: Bezier pieces, segments, triangles.
 //!
-//! The items are halved by the median of their centres along the longest side of the box of all centres, until at most four are left. A tree over `N` items takes
-//! memory linear in `N`, is built in `O(N log N)` and has depth `log₂ N` whatever the items look like. All queries are one walk: a subtree is passed over
-//! if the key of its box, which no item in it can undercut, reaches the limit, and of two children the one with the smaller key comes first, so
-//! that the limit falls early. Queries for one place do not allocate. J. Goldsmith, J. Salmon, *Automatic creation of object hierarchies for ray tracing*, 1987,
-//! for trees of boxes; N. Roussopoulos, S. Kelley, F. Vincent, *Nearest neighbor queries*, 1995, for the walk.
+//! The items are divided by medians of their centres along the longest side of the box of all centres, so that a node gets four children of equal size. The four boxes
+//! stand side by side and are looked at together. A tree over `N` items takes memory linear in `N`, is built in `O(N log N)` and has depth `log₄ N` whatever
+//! the items look like. All queries are one walk: a box is passed over if its key, which no item in it can undercut, reaches the limit, and the box with the
+//! smallest key comes first, so that the limit falls early. Queries for one place do not allocate. J. Goldsmith, J. Salmon, *Automatic creation of object hierarchies
+//! for ray tracing*, 1987, for trees of boxes; N. Roussopoulos, S. Kelley, F. Vincent, *Nearest neighbor queries*, 1995, for the walk.
 
 use thiserror::Error;
 
-/// Most items in a leaf.
-const LEAF: usize = 4;
-/// The walk keeps one waiting child for each level, and a tree over fewer than 2³² items has at most 32.
-const MAX_WAITING: usize = 40;
+/// Boxes of a node.
+const WIDTH: usize = 4;
+/// The walk keeps up to three waiting boxes for each level and the four of the last; a tree over fewer than 2³² items has at most 16 levels.
+const MAX_WAITING: usize = 3 * 16 + WIDTH;
 
 /// What can be wrong with boxes.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -150,27 +150,117 @@ impl<const D: usize> BoundingBox<D> {
         if enter <= leave { enter } else { f64::INFINITY }
     }
 
+    /// The sum of the sides.
+    fn size(&self) -> f64 {
+        (0..D).map(|axis| self.high[axis] - self.low[axis]).sum()
+    }
+
     fn centre(&self, axis: usize) -> f64 {
         0.5 * self.low[axis] + 0.5 * self.high[axis]
     }
 }
 
-/// Items `first..last` of the tree's own sequence, in `bounds`. An inner node has its left child behind it.
+/// Four boxes side by side, so that their keys are computed together. A lane without a box has an empty one, infinitely far from everything.
 #[derive(Clone, Debug)]
 struct Node<const D: usize> {
-    bounds: BoundingBox<D>,
-    first: u32,
-    last: u32,
-    /// Index of the right child; 0 in a leaf.
-    right: u32,
+    low: [Lanes; D],
+    high: [Lanes; D],
+    links: [Link; WIDTH],
+}
+
+/// One number for each box of a node.
+type Lanes = [f64; WIDTH];
+
+/// What stands in a lane of a node: another node or an item.
+#[derive(Clone, Copy, Debug)]
+enum Link {
+    Node(u32),
+    Item(u32),
+}
+
+impl<const D: usize> Node<D> {
+    const EMPTY: Self = Self {
+        low: [[f64::INFINITY; WIDTH]; D],
+        high: [[f64::NEG_INFINITY; WIDTH]; D],
+        links: [Link::Item(u32::MAX); WIDTH],
+    };
+
+    fn put(&mut self, lane: usize, bounds: &BoundingBox<D>, link: Link) {
+        for axis in 0..D {
+            self.low[axis][lane] = bounds.low[axis];
+            self.high[axis][lane] = bounds.high[axis];
+        }
+        self.links[lane] = link;
+    }
+
+    fn bounds(&self, lane: usize) -> BoundingBox<D> {
+        BoundingBox { low: self.low.map(|lanes| lanes[lane]), high: self.high.map(|lanes| lanes[lane]) }
+    }
+
+    /// The boxes and what they are of.
+    fn children(&self) -> impl Iterator<Item = (BoundingBox<D>, Link)> + '_ {
+        (0..self.count()).map(|lane| (self.bounds(lane), self.links[lane]))
+    }
+
+    /// Those boxes that are not further than `gap` from `other` in any coordinate.
+    fn near(&self, other: &BoundingBox<D>, gap: f64) -> impl Iterator<Item = (BoundingBox<D>, Link)> {
+        let mut is_near = [true; WIDTH];
+        for axis in 0..D {
+            let (low, high) = (other.low[axis] - gap, other.high[axis] + gap);
+            for (lane, near) in is_near.iter_mut().enumerate() {
+                *near &= self.low[axis][lane] <= high && self.high[axis][lane] >= low;
+            }
+        }
+        // Empty boxes are near nothing.
+        (0..WIDTH).filter(move |&lane| is_near[lane]).map(|lane| (self.bounds(lane), self.links[lane]))
+    }
+
+    /// The number of boxes.
+    fn count(&self) -> usize {
+        let is_free = |link: &Link| matches!(link, Link::Item(u32::MAX));
+        self.links.iter().position(is_free).unwrap_or(WIDTH)
+    }
+
+    /// A number for each box, infinite for lanes without one.
+    fn keys(&self, key: impl Fn(&BoundingBox<D>) -> f64) -> Lanes {
+        let mut keys = [f64::INFINITY; WIDTH];
+        for (lane, (bounds, _)) in self.children().enumerate() {
+            keys[lane] = key(&bounds);
+        }
+        keys
+    }
+
+    /// The squared distances of a point, infinite for lanes without a box.
+    fn distances_squared(&self, point: &[f64; D]) -> Lanes {
+        let mut keys = [0.0; WIDTH];
+        for axis in 0..D {
+            let (low, high, x) = (&self.low[axis], &self.high[axis], point[axis]);
+            for lane in 0..WIDTH {
+                let outside = larger(larger(low[lane] - x, x - high[lane]), 0.0);
+                keys[lane] += outside * outside;
+            }
+        }
+        keys
+    }
+}
+
+/// The larger number, `b` if one is none; one instruction, unlike `f64::max`.
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+/// The smaller number, `b` if one is none.
+fn smaller(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
 }
 
 /// A tree over boxes, which are known by their index in the list it was built from.
 #[derive(Clone, Debug)]
 pub struct BoundingTree<const D: usize> {
+    /// The first is the root.
     nodes: Vec<Node<D>>,
-    /// Index and box of the items, those of a node side by side.
-    items: Vec<(u32, BoundingBox<D>)>,
+    len: usize,
+    bounds: Option<BoundingBox<D>>,
 }
 
 impl<const D: usize> BoundingTree<D> {
@@ -184,48 +274,48 @@ impl<const D: usize> BoundingTree<D> {
         if boxes.len() > limit {
             return Err(BoundingTreeError::StepLimit { value: boxes.len(), limit });
         }
-        let items = (0_u32..).zip(boxes.iter().copied()).collect();
-        let mut tree = Self { nodes: Vec::with_capacity(boxes.len()), items };
-        if !boxes.is_empty() {
-            tree.grow(0, boxes.len());
+        let mut items: Vec<(u32, BoundingBox<D>)> = (0_u32..).zip(boxes.iter().copied()).collect();
+        let bounds = boxes.iter().copied().reduce(|all, item| all.union(&item));
+        let mut tree = Self { nodes: Vec::with_capacity(boxes.len() / 2), len: boxes.len(), bounds };
+        if !items.is_empty() {
+            tree.grow(&mut items);
         }
         Ok(tree)
     }
 
-    /// Adds the node over the items `first..last` and everything below it.
-    fn grow(&mut self, first: usize, last: usize) {
-        let items = &mut self.items[first..last];
-        let bounds = items.iter().skip(1).fold(items[0].1, |all, (_, item)| all.union(item));
+    /// Adds the node over `items` and everything below it; returns its index.
+    fn grow(&mut self, items: &mut [(u32, BoundingBox<D>)]) -> u32 {
         let index = self.nodes.len();
-        self.nodes.push(Node { bounds, first: first as u32, last: last as u32, right: 0 });
-        if items.len() <= LEAF {
-            return;
+        self.nodes.push(Node::EMPTY);
+        // Full children: only the last one has less than a power of four.
+        let mut share = 1;
+        while WIDTH * share < items.len() {
+            share *= WIDTH;
         }
-        let spread = |axis: usize| {
-            let centres = || items.iter().map(|(_, item)| item.centre(axis));
-            centres().fold(f64::NEG_INFINITY, f64::max) - centres().fold(f64::INFINITY, f64::min)
-        };
-        let axis = (0..D).max_by(|&a, &b| spread(a).total_cmp(&spread(b))).unwrap_or(0);
-        let half = items.len() / 2;
-        items.select_nth_unstable_by(half, |a, b| a.1.centre(axis).total_cmp(&b.1.centre(axis)));
-        self.grow(first, first + half);
-        self.nodes[index].right = self.nodes.len() as u32;
-        self.grow(first + half, last);
+        let (left, right) = divide(items, 2 * share);
+        let (quarters, others) = (divide(left, share), divide(right, share));
+        for (lane, part) in [quarters.0, quarters.1, others.0, others.1].into_iter().enumerate() {
+            let Some(first) = part.first() else { continue };
+            let bounds = part.iter().fold(first.1, |all, (_, item)| all.union(item));
+            let link = if part.len() == 1 { Link::Item(first.0) } else { Link::Node(self.grow(part)) };
+            self.nodes[index].put(lane, &bounds, link);
+        }
+        index as u32
     }
 
     /// The number of items.
     pub fn len(&self) -> usize {
-        self.items.len()
+        self.len
     }
 
     /// Whether there are no items.
     pub fn is_empty(&self) -> bool {
-        self.items.is_empty()
+        self.len == 0
     }
 
     /// The box of all items.
     pub fn bounds(&self) -> Option<BoundingBox<D>> {
-        self.nodes.first().map(|node| node.bounds)
+        self.bounds
     }
 
     /// Visits the items whose boxes are nearer to `point` than the square root of the limit, near ones early. `visit` is given an item and the limit, the square of a
@@ -249,7 +339,7 @@ impl<const D: usize> BoundingTree<D> {
     /// # Ok::<(), spline_lab::core::bounding_tree::BoundingTreeError>(())
     /// ```
     pub fn nearest(&self, point: [f64; D], limit: f64, visit: impl FnMut(usize, f64) -> f64) -> f64 {
-        self.walk(|bounds| bounds.distance_squared(&point), limit, visit)
+        self.walk(|node| node.distances_squared(&point), limit, visit)
     }
 
     /// Visits the items whose boxes the ray `origin + s·direction`, `s ≥ 0`, enters before the limit, near ones early. `visit` is given an item and the limit and
@@ -261,22 +351,58 @@ impl<const D: usize> BoundingTree<D> {
         limit: f64,
         visit: impl FnMut(usize, f64) -> f64,
     ) -> f64 {
-        self.walk(|bounds| bounds.entry(&origin, &direction), limit, visit)
+        self.walk(|node| node.keys(|bounds| bounds.entry(&origin, &direction)), limit, visit)
     }
 
     /// Visits the items whose boxes are not further than `gap` from `bounds` in any coordinate, in no order.
     pub fn near(&self, bounds: &BoundingBox<D>, gap: f64, mut visit: impl FnMut(usize)) {
         let key = |other: &BoundingBox<D>| if bounds.is_near(other, gap) { 0.0 } else { 1.0 };
-        self.walk(key, 1.0, |item, limit| {
-            visit(item);
-            limit
-        });
+        self.walk(
+            |node| node.keys(key),
+            1.0,
+            |item, limit| {
+                visit(item);
+                limit
+            },
+        );
     }
 
     /// Visits the items whose boxes contain `point`, in no order.
     pub fn containing(&self, point: [f64; D], mut visit: impl FnMut(usize)) {
-        let key = |bounds: &BoundingBox<D>| bounds.distance_squared(&point);
-        self.walk(key, f64::MIN_POSITIVE, |item, limit| {
+        self.walk(
+            |node| node.distances_squared(&point),
+            f64::MIN_POSITIVE,
+            |item, limit| {
+                visit(item);
+                limit
+            },
+        );
+    }
+
+    /// Visits the items whose boxes have points within `gap` of the hyperplane `normal·x = offset`, where `normal` has length 1, in no order.
+    pub fn near_plane(&self, normal: [f64; D], offset: f64, gap: f64, mut visit: impl FnMut(usize)) {
+        let keys = |node: &Node<D>| {
+            let (mut low, mut high) = ([-offset; WIDTH], [-offset; WIDTH]);
+            for axis in 0..D {
+                let factor = normal[axis];
+                let (from, to) = (&node.low[axis], &node.high[axis]);
+                for lane in 0..WIDTH {
+                    let (a, b) = (factor * from[lane], factor * to[lane]);
+                    low[lane] += smaller(a, b);
+                    high[lane] += larger(a, b);
+                }
+            }
+            let mut keys = [1.0; WIDTH];
+            for (lane, key) in keys.iter_mut().enumerate() {
+                if low[lane] <= gap && high[lane] >= -gap {
+                    *key = 0.0;
+                }
+            }
+            // The empty boxes of lanes without an item reach everywhere.
+            keys.iter_mut().skip(node.count()).for_each(|key| *key = 1.0);
+            keys
+        };
+        self.walk(keys, 1.0, |item, limit| {
             visit(item);
             limit
         });
@@ -285,68 +411,85 @@ impl<const D: usize> BoundingTree<D> {
     /// All items whose boxes have a key below the limit, which `visit` may lower.
     fn walk(
         &self,
-        key: impl Fn(&BoundingBox<D>) -> f64,
+        keys: impl Fn(&Node<D>) -> Lanes,
         mut limit: f64,
         mut visit: impl FnMut(usize, f64) -> f64,
     ) -> f64 {
-        let mut waiting = [(0_u32, 0.0_f64); MAX_WAITING];
-        let mut count = 0;
-        let Some(root) = self.nodes.first() else { return limit };
-        let (mut index, mut least) = (0, key(&root.bounds));
-        loop {
-            if least < limit {
-                let node = &self.nodes[index];
-                if node.right == 0 {
-                    for (item, bounds) in &self.items[node.first as usize..node.last as usize] {
-                        if key(bounds) < limit {
-                            limit = visit(*item as usize, limit);
+        if self.nodes.is_empty() {
+            return limit;
+        }
+        let mut waiting = [(f64::NEG_INFINITY, Link::Node(0)); MAX_WAITING];
+        let mut count = 1;
+        while count > 0 {
+            count -= 1;
+            let (least, link) = waiting[count];
+            if least >= limit {
+                continue;
+            }
+            match link {
+                Link::Item(item) => limit = visit(item as usize, limit),
+                Link::Node(index) => {
+                    let node = &self.nodes[index as usize];
+                    let first = count;
+                    for (key, link) in keys(node).into_iter().zip(node.links) {
+                        if key < limit {
+                            // Larger keys below smaller ones.
+                            let mut place = count;
+                            while place > first && waiting[place - 1].0 < key {
+                                waiting[place] = waiting[place - 1];
+                                place -= 1;
+                            }
+                            waiting[place] = (key, link);
+                            count += 1;
                         }
                     }
-                } else {
-                    let children = [index + 1, node.right as usize];
-                    let keys = children.map(|child| key(&self.nodes[child].bounds));
-                    let near = usize::from(keys[1] < keys[0]);
-                    waiting[count] = (children[1 - near] as u32, keys[1 - near]);
-                    count += 1;
-                    (index, least) = (children[near], keys[near]);
-                    continue;
                 }
             }
-            if count == 0 {
-                return limit;
-            }
-            count -= 1;
-            (index, least) = (waiting[count].0 as usize, waiting[count].1);
         }
+        limit
     }
 
     /// Visits every pair of an item of this tree and one of `other` whose boxes are not further apart than `gap` in any coordinate, in no order.
     pub fn pairs(&self, other: &Self, gap: f64, mut visit: impl FnMut(usize, usize)) {
-        if self.is_empty() || other.is_empty() {
+        let (Some(mine), Some(theirs)) = (self.bounds, other.bounds) else { return };
+        if !mine.is_near(&theirs, gap) {
             return;
         }
-        let mut waiting = vec![(0, 0)];
-        while let Some((i, j)) = waiting.pop() {
-            let (a, b) = (&self.nodes[i], &other.nodes[j]);
-            if !a.bounds.is_near(&b.bounds, gap) {
-                continue;
-            }
-            // The node with more items is opened.
-            if a.right != 0 && (b.right == 0 || a.last - a.first >= b.last - b.first) {
-                waiting.extend([(i + 1, j), (a.right as usize, j)]);
-            } else if b.right != 0 {
-                waiting.extend([(i, j + 1), (i, b.right as usize)]);
-            } else {
-                for (mine, bounds) in &self.items[a.first as usize..a.last as usize] {
-                    for (theirs, others) in &other.items[b.first as usize..b.last as usize] {
-                        if bounds.is_near(others, gap) {
-                            visit(*mine as usize, *theirs as usize);
-                        }
-                    }
+        let mut waiting = Vec::with_capacity(2 * MAX_WAITING);
+        waiting.push(((mine, Link::Node(0)), (theirs, Link::Node(0))));
+        while let Some((a, b)) = waiting.pop() {
+            // The longer box is opened, if it can be.
+            match (a.1, b.1) {
+                (Link::Item(a), Link::Item(b)) => visit(a as usize, b as usize),
+                (Link::Node(i), other) if matches!(other, Link::Item(_)) || a.0.size() >= b.0.size() => {
+                    let near = self.nodes[i as usize].near(&b.0, gap);
+                    waiting.extend(near.map(|child| (child, b)));
                 }
+                (_, Link::Node(j)) => {
+                    let near = other.nodes[j as usize].near(&a.0, gap);
+                    waiting.extend(near.map(|child| (a, child)));
+                }
+                (Link::Node(_), Link::Item(_)) => {}
             }
         }
     }
+}
+
+/// The first `count` items along the longest side of the box of all centres, and the others.
+fn divide<const D: usize>(
+    items: &mut [(u32, BoundingBox<D>)],
+    count: usize,
+) -> (&mut [(u32, BoundingBox<D>)], &mut [(u32, BoundingBox<D>)]) {
+    if count >= items.len() {
+        return (items, &mut []);
+    }
+    let spread = |axis: usize| {
+        let centres = || items.iter().map(|(_, item)| item.centre(axis));
+        centres().fold(f64::NEG_INFINITY, f64::max) - centres().fold(f64::INFINITY, f64::min)
+    };
+    let axis = (0..D).max_by(|&a, &b| spread(a).total_cmp(&spread(b))).unwrap_or(0);
+    items.select_nth_unstable_by(count, |a, b| a.1.centre(axis).total_cmp(&b.1.centre(axis)));
+    items.split_at_mut(count)
 }
 
 #[cfg(test)]
@@ -386,6 +529,15 @@ mod tests {
             let mut found = Vec::new();
             tree.containing(point, |i| found.push(i));
             prop_assert_eq!(sorted(found), all(&|b| b.distance_squared(&point) == 0.0), "containing");
+            let (normal, gap) = ([0.6, -0.8], 0.3);
+            let mut found = Vec::new();
+            tree.near_plane(normal, point[0], gap, |i| found.push(i));
+            let reach = |b: &BoundingBox<2>| {
+                let corners = [b.low(), b.high(), [b.low()[0], b.high()[1]], [b.high()[0], b.low()[1]]];
+                corners.map(|x| normal[0] * x[0] + normal[1] * x[1] - point[0])
+            };
+            let meets = |b: &BoundingBox<2>| reach(b).iter().any(|h| *h >= -gap) && reach(b).iter().any(|h| *h <= gap);
+            prop_assert_eq!(sorted(found), all(&meets), "plane");
             let window = BoundingBox::new(point, point.map(|x| x + 2.0)).unwrap();
             let mut found = Vec::new();
             tree.near(&window, 0.5, |i| found.push(i));
@@ -410,7 +562,7 @@ mod tests {
     fn depth_and_memory_stay_small_even_if_all_items_are_one() {
         let point = BoundingBox::new([1.0, 2.0, 3.0], [1.0, 2.0, 3.0]).unwrap();
         let tree = BoundingTree::new(&vec![point; 100_000]).unwrap();
-        assert!(tree.nodes.len() < 2 * 100_000 / (LEAF / 2), "{} nodes", tree.nodes.len());
+        assert!(tree.nodes.len() < 100_000 / 3 + 16, "{} nodes", tree.nodes.len());
         let mut visited = 0;
         tree.containing([1.0, 2.0, 3.0], |_| visited += 1);
         assert_eq!((visited, tree.len()), (100_000, 100_000), "every item once");

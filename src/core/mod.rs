@@ -40,7 +40,7 @@
 //! | typed formulas | `formula` |
 //! | linear systems | `linear_system` |
 //! | B.1 Degree elevation and reduction | `spline_curve/{degree, degree_reduction, uniform_reduction}` |
-//! | B.2 Knot removal | `spline_curve/{knot_removal, removal_within}` |
+//! | B.2 Knot removal, other knots | `spline_curve/{knot_removal, removal_within, nearest_spline, knot_rule}` |
 //! | B.3 Measured deviation | `spline_curve/{deviation, hausdorff}` |
 //! | B.4 Arc length | `spline_curve/arc_length`, `bezier/arc_length` |
 //! | B.5 Closest points | `spline_curve/{closest_point, foot_points}`, `rational_bezier/closest_point`, `bounding_tree` |

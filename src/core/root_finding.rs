@@ -219,6 +219,69 @@ fn bracketed_zero(c: &[f64], scratch: &mut [f64], mut low: f64, mut high: f64) -
     t
 }
 
+/// The zero of a polynomial whose coefficients, overwritten, have one sign before index `k` and not from there on: Newton's method in a bracket, from where the control
+/// polygon is 0.
+///
+/// With `s = t/(1 − t)` the polynomial is `(1 − t)ᴺ Σ C(N,k) cₖ sᵏ`. Over the half of `[0, 1]` where the zero is, counted from the nearer end, `s` is at most 1, and the
+/// sum has no larger rounding errors than de Casteljau's algorithm.
+pub(in crate::core) fn single_zero(c: &mut [f64], k: usize) -> f64 {
+    let n = c.len() - 1;
+    let guess = ((k - 1) as f64 + c[k - 1] / (c[k - 1] - c[k])) / n as f64;
+    let mut binomial = 1.0;
+    for (j, c) in c.iter_mut().enumerate() {
+        *c *= binomial;
+        binomial *= (n - j) as f64 / (j + 1) as f64;
+    }
+    let falls = c[0] > 0.0;
+    let is_right = (c.iter().sum::<f64>() < 0.0) != falls;
+    if is_right {
+        c.reverse();
+    }
+    let start = if is_right { 1.0 - guess } else { guess };
+    let (mut low, mut high) = (0.0, 1.0);
+    let mut s = (start / (1.0 - start)).min(1.0);
+    let mut before = 1.0_f64;
+    // Halving alone takes 53 steps to the last digit.
+    for _ in 0..60 {
+        let (mut value, mut slope) = (0.0, 0.0);
+        for c in c.iter().rev() {
+            slope = slope * s + value;
+            value = value * s + c;
+        }
+        if value == 0.0 {
+            break;
+        }
+        if (value < 0.0) == (is_right != falls) {
+            high = s;
+        } else {
+            low = s;
+        }
+        let newton = s - value / slope;
+        let is_inside = low < newton && newton < high;
+        let next = if is_inside { newton } else { 0.5 * (low + high) };
+        let step = (next - s).abs();
+        s = next;
+        // Steps of a quadratically convergent sequence shrink like 1, C, C³ …: the next one would be step³/before².
+        let is_last = is_inside && step * step * step <= 0.5 * f64::EPSILON * before * before;
+        if is_last || step <= 2.0 * f64::EPSILON || high - low <= f64::EPSILON {
+            break;
+        }
+        before = step;
+    }
+    if is_right { 1.0 / (1.0 + s) } else { s / (1.0 + s) }
+}
+
+/// The index at which coefficients above `noise` in modulus have their only change of sign; `None` if there are more or the first or last one is within the noise.
+pub(in crate::core) fn single_sign_change(c: &[f64], noise: f64) -> Option<usize> {
+    let (first, last) = (*c.first()?, *c.last()?);
+    let differ = |a: f64| (a < 0.0) != (first < 0.0);
+    if first.abs() <= noise || last.abs() <= noise || !differ(last) {
+        return None;
+    }
+    let k = c.iter().position(|&a| a.abs() > noise && differ(a))?;
+    c[k..].iter().all(|&a| a.abs() <= noise || differ(a)).then_some(k)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -3,20 +3,49 @@
 //! A lesson is a file of `assets/lessons/`, built into the program. Its `scene` is exactly what a document file of the
 //! lab holds, so a scene can be made in the window and pasted. Inline formulas stand between dollar signs.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use serde::Deserialize;
 use thiserror::Error;
 
 use crate::course::question::Question;
-use crate::document::{Document, FileError, View, from_json};
+use crate::document::{Document, FileError, ObjectId, View, from_json};
 
 /// The lesson files in the course's order, with their names.
-const FILES: [(&str, &str); 9] = [
+const FILES: [(&str, &str); 29] = [
+    ("2.1-control-polygon.json", include_str!("../../assets/lessons/2.1-control-polygon.json")),
+    (
+        "2.2-properties-of-bezier-curves.json",
+        include_str!("../../assets/lessons/2.2-properties-of-bezier-curves.json"),
+    ),
+    ("2.3-de-casteljau.json", include_str!("../../assets/lessons/2.3-de-casteljau.json")),
+    ("2.4-differentiation.json", include_str!("../../assets/lessons/2.4-differentiation.json")),
+    ("2.5-curvature.json", include_str!("../../assets/lessons/2.5-curvature.json")),
+    ("2.6-subdivision.json", include_str!("../../assets/lessons/2.6-subdivision.json")),
+    ("2.7-geometric-hermite.json", include_str!("../../assets/lessons/2.7-geometric-hermite.json")),
+    ("3.1-weights.json", include_str!("../../assets/lessons/3.1-weights.json")),
+    ("3.2-gravity.json", include_str!("../../assets/lessons/3.2-gravity.json")),
+    (
+        "3.3-homogeneous-coordinates.json",
+        include_str!("../../assets/lessons/3.3-homogeneous-coordinates.json"),
+    ),
+    ("3.4-conics.json", include_str!("../../assets/lessons/3.4-conics.json")),
+    ("4.1-recurrence.json", include_str!("../../assets/lessons/4.1-recurrence.json")),
+    ("4.2-smoothness.json", include_str!("../../assets/lessons/4.2-smoothness.json")),
+    ("4.3-polynomials.json", include_str!("../../assets/lessons/4.3-polynomials.json")),
+    ("4.4-splines.json", include_str!("../../assets/lessons/4.4-splines.json")),
     ("4.5-de-boor.json", include_str!("../../assets/lessons/4.5-de-boor.json")),
+    ("4.6-periodic-splines.json", include_str!("../../assets/lessons/4.6-periodic-splines.json")),
     ("5.1-schoenberg.json", include_str!("../../assets/lessons/5.1-schoenberg.json")),
     ("5.5-interpolation.json", include_str!("../../assets/lessons/5.5-interpolation.json")),
     ("5.6-smoothing.json", include_str!("../../assets/lessons/5.6-smoothing.json")),
+    ("6.1-spline-curves.json", include_str!("../../assets/lessons/6.1-spline-curves.json")),
+    (
+        "6.2-distance-to-the-polygon.json",
+        include_str!("../../assets/lessons/6.2-distance-to-the-polygon.json"),
+    ),
+    ("6.3-knot-insertion.json", include_str!("../../assets/lessons/6.3-knot-insertion.json")),
+    ("6.4-bezier-form.json", include_str!("../../assets/lessons/6.4-bezier-form.json")),
     ("8.2-spline-surfaces.json", include_str!("../../assets/lessons/8.2-spline-surfaces.json")),
     ("8.3-subdivision-surfaces.json", include_str!("../../assets/lessons/8.3-subdivision-surfaces.json")),
     ("9.1-ritz-galerkin.json", include_str!("../../assets/lessons/9.1-ritz-galerkin.json")),
@@ -90,12 +119,10 @@ struct LessonFile {
 }
 
 /// The lessons in the course's order.
-pub fn lessons() -> Vec<Lesson> {
+pub fn lessons() -> &'static [Lesson] {
     static LESSONS: OnceLock<Vec<Lesson>> = OnceLock::new();
     // A test loads every file, so that none is missing here.
-    LESSONS
-        .get_or_init(|| FILES.iter().filter_map(|(_, text)| Lesson::from_json(text).ok()).collect())
-        .clone()
+    LESSONS.get_or_init(|| FILES.iter().filter_map(|(_, text)| Lesson::from_json(text).ok()).collect())
 }
 
 impl Lesson {
@@ -108,13 +135,15 @@ impl Lesson {
         let mut reader = serde_json::Deserializer::from_str(text);
         let file: LessonFile = serde_path_to_error::deserialize(&mut reader)?;
         let scene = from_json(&file.scene.to_string())?;
+        let mut question = file.question;
+        question.original = scene.document.curve(ObjectId(question.object)).cloned().map(Arc::new);
         let lesson = Self {
             section: file.section,
             title: file.title,
             paragraphs: file.paragraphs,
             display_formula: file.display_formula,
             things_to_try: file.things_to_try,
-            question: file.question,
+            question,
             document: scene.document,
             view: scene.view,
         };
@@ -133,6 +162,11 @@ impl Lesson {
         format!("{}  {}", self.section, self.title)
     }
 
+    /// The number of the chapter.
+    pub fn chapter(&self) -> usize {
+        self.section.split('.').next().and_then(|number| number.parse().ok()).unwrap_or(0)
+    }
+
     /// All texts that may contain inline formulas.
     pub fn texts(&self) -> impl Iterator<Item = &str> {
         let question = [self.question.prompt.as_str(), self.question.feedback.as_str()];
@@ -148,6 +182,22 @@ impl Lesson {
             });
         std::iter::once(self.display_formula.clone()).chain(inline).collect()
     }
+}
+
+/// The title of a chapter of the course; empty if there is none with this number.
+pub fn chapter_title(chapter: usize) -> &'static str {
+    const TITLES: [&str; 9] = [
+        "Polynomials",
+        "Bézier curves",
+        "Rational Bézier curves",
+        "B-splines",
+        "Approximation",
+        "Spline curves",
+        "Multivariate splines",
+        "Surfaces and solids",
+        "Finite elements",
+    ];
+    chapter.checked_sub(1).and_then(|index| TITLES.get(index)).copied().unwrap_or_default()
 }
 
 /// Divides a text at its dollar signs into words and formulas; empty stretches are left out.
@@ -221,18 +271,43 @@ mod tests {
 
     #[test]
     fn display_formulas_fit_beside_the_picture() {
-        for lesson in lessons().iter().filter(|lesson| !lesson.display_formula.is_empty()) {
-            let width = layout(&lesson.display_formula, 14.0).unwrap().width;
-            assert!(width < 270.0, "{}: {width} pt", lesson.section);
+        let width = |lesson: &Lesson| layout(&lesson.display_formula, 14.0).unwrap().width;
+        let wide: Vec<_> = lessons().iter().map(|lesson| (lesson.section.clone(), width(lesson))).collect();
+        let wide: Vec<_> = wide.into_iter().filter(|&(_, width)| width >= 270.0).collect();
+        assert!(wide.is_empty(), "wider than the panel, in pt: {wide:?}");
+    }
+
+    #[test]
+    fn no_question_is_solved_at_the_start_and_every_number_is() {
+        for lesson in lessons() {
+            let (section, document) = (&lesson.section, &lesson.document);
+            if let Some(number) = lesson.question.right_number(document) {
+                let ask = |value: f64| lesson.question.check(document, &Answer::Text(value.to_string()));
+                assert!(ask(number).correct, "{section}: {number}: {:?}", ask(number));
+                for wrong in [number + 0.25, -number - 1.0] {
+                    let verdict = ask(wrong);
+                    assert!(!verdict.correct && !verdict.message.is_empty(), "{section}: {wrong}");
+                }
+                continue;
+            }
+            let origin = Answer::Point(glam::DVec2::ZERO);
+            for answer in [Answer::Curve, origin, Answer::Text("1".to_owned())] {
+                let verdict = lesson.question.check(document, &answer);
+                assert!(!verdict.correct, "{section} is solved by {answer:?} before anything was done");
+            }
         }
     }
 
     #[test]
-    fn the_right_answer_of_every_number_question_is_accepted() {
+    fn scenes_show_their_objects() {
         for lesson in lessons() {
-            if let Some(number) = lesson.question.right_number(&lesson.document) {
-                let verdict = lesson.question.check(&lesson.document, &Answer::Text(number.to_string()));
-                assert!(verdict.correct, "{}: {number}: {verdict:?}", lesson.section);
+            let (section, objects) = (&lesson.section, lesson.document.objects());
+            assert!(!objects.is_empty(), "{section}: an empty scene");
+            let selected = lesson.view.selected_object;
+            assert!(selected.is_some_and(|id| lesson.document.object(id).is_some()), "{section}: selection");
+            for (object, &t) in &lesson.view.parameters {
+                let curve = lesson.document.curve(*object).expect("parameters are those of curves");
+                assert!(curve.evaluate(t).is_ok(), "{section}: the parameter {t} of {object:?}");
             }
         }
     }
@@ -275,12 +350,14 @@ mod tests {
 
     #[test]
     fn mistakes_in_a_lesson_are_named() {
-        let (_, good) = FILES[0];
+        let (_, good) =
+            FILES.into_iter().find(|(name, _)| name.starts_with("4.5")).expect("the lesson exists");
         for (from, to, named) in [
             ("\"title\"", "\"titel\"", "titel"),
             ("\"object\": 1,", "\"object\": 77,", "77"),
             ("\"kind\": \"number\"", "\"kind\": \"riddle\"", "riddle"),
             ("$t = 5$", "$t = 5", "not closed"),
+            ("\"feedback\"", "\"keep\": [\"colour\"],\n\"feedback\"", "colour"),
         ] {
             let bad = good.replacen(from, to, 1);
             assert_ne!(bad, good, "{from} stands in the lesson");

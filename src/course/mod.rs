@@ -10,6 +10,6 @@ pub mod number_text;
 pub mod question;
 pub mod stepper;
 
-pub use lesson::{Lesson, LessonError, TextPart, lessons, text_parts};
+pub use lesson::{Lesson, LessonError, TextPart, chapter_title, lessons, text_parts};
 pub use question::{Answer, FitTask, Question, Task, Verdict};
-pub use stepper::{Entry, Frame, Stepper, de_boor_stepper, de_casteljau_stepper};
+pub use stepper::{Entry, Frame, Stepper, StepperKind, de_boor_stepper, stepper};

@@ -2,7 +2,7 @@
 
 use glam::{DMat2, DVec2};
 
-use crate::core::spline_curve::Nurbs;
+use crate::core::spline_curve::{KnotRule, Nurbs};
 use crate::document::display::CurveDisplay;
 use crate::document::object::{Content, ObjectId};
 
@@ -180,6 +180,26 @@ pub enum Edit {
         /// The knots.
         knots: Vec<f64>,
     },
+    /// Takes the knots of a rule; the control points, the degree and the parameter interval stay.
+    GenerateKnots {
+        /// The curve.
+        object: ObjectId,
+        /// The rule.
+        rule: KnotRule,
+    },
+    /// Removes knots while the certified deviation is at most a tolerance.
+    RemoveKnotsWithin {
+        /// The curve.
+        object: ObjectId,
+        /// The largest deviation, positive or 0.
+        tolerance: f64,
+    },
+    /// Changes knots as another edit does and recomputes the control points: those of the nearest curve in the mean-square sense.
+    /// `n`-fold ends and the parameter interval of an open curve stay.
+    KeepCurve {
+        /// [`Self::MoveKnot`], [`Self::MoveDistinctKnot`], [`Self::SetKnots`] with any number of knots, or [`Self::GenerateKnots`].
+        edit: Box<Self>,
+    },
     /// Raises the degree by one; the shape is kept.
     ElevateDegree {
         /// The curve.
@@ -287,6 +307,9 @@ impl Edit {
             Self::MoveKnot { to, .. } => format!("Move knot to {}", short(*to)),
             Self::MoveDistinctKnot { at, to, .. } => format!("Move knot {} to {}", short(*at), short(*to)),
             Self::SetKnots { .. } => "Set knots".to_owned(),
+            Self::GenerateKnots { rule, .. } => rule_name(*rule).to_owned(),
+            Self::RemoveKnotsWithin { tolerance, .. } => format!("Remove knots within {}", short(*tolerance)),
+            Self::KeepCurve { edit, .. } => format!("{}, curve kept", edit.name()),
             Self::ElevateDegree { .. } => "Raise degree".to_owned(),
             Self::ReduceDegree { .. } => "Lower degree".to_owned(),
             Self::SetDegree { degree, .. } => format!("Set degree {degree}"),
@@ -301,6 +324,17 @@ impl Edit {
                 label.clone()
             }
         }
+    }
+}
+
+/// `Chord length knots` and so on.
+fn rule_name(rule: KnotRule) -> &'static str {
+    match rule {
+        KnotRule::Uniform => "Uniform knots",
+        KnotRule::EndInterpolating => "End-interpolating knots",
+        KnotRule::ChordLength => "Chord length knots",
+        KnotRule::Centripetal => "Centripetal knots",
+        KnotRule::Averaged => "Averaged knots",
     }
 }
 

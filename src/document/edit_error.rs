@@ -67,6 +67,27 @@ pub enum EditError {
         /// The larger limit.
         high: f64,
     },
+    /// A curve cannot be kept over another parameter interval.
+    #[error(
+        "the curve can be kept over its parameter interval [{}, {}] only, not over [{}, {}]",
+        short(*.left), short(*.right), short(*.low), short(*.high)
+    )]
+    IntervalChanged {
+        /// Left end of the interval of the curve.
+        left: f64,
+        /// Its right end.
+        right: f64,
+        /// Left end of the interval of the new knots.
+        low: f64,
+        /// Its right end.
+        high: f64,
+    },
+    /// An edit does not change knots alone, so that there is no curve to keep.
+    #[error("{name:?} does not change knots alone")]
+    NoKnotEdit {
+        /// The name of the edit.
+        name: String,
+    },
     /// The degree lies outside the window's range.
     #[error("degree {degree} lies outside 1 to {MAX_EDIT_DEGREE}")]
     DegreeOutsideWindow {
@@ -152,6 +173,8 @@ impl EditError {
             Self::NoSuchKnot { .. } => "NoSuchKnot",
             Self::NotAKnot { .. } => "NotAKnot",
             Self::KnotBlocked { .. } => "KnotBlocked",
+            Self::IntervalChanged { .. } => "IntervalChanged",
+            Self::NoKnotEdit { .. } => "NoKnotEdit",
             Self::DegreeOutsideWindow { .. } => "DegreeOutsideWindow",
             Self::NoSuchPosition { .. } => "NoSuchPosition",
             Self::NonFinite { .. } => "NonFinite",

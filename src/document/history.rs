@@ -196,6 +196,16 @@ impl History {
         !same(&self.document, &self.saved)
     }
 
+    /// Puts `document` in place of the present one, as one undo step called `name`; an equal document makes no step.
+    pub fn restore(&mut self, name: impl Into<String>, document: Document) {
+        self.commit();
+        if !same(&document, &self.document) {
+            let before = std::mem::replace(&mut self.document, document);
+            self.record(name.into(), before);
+            self.revision += 1;
+        }
+    }
+
     /// Opens another document: past, future and interaction are forgotten.
     pub fn replace(&mut self, document: Document) {
         let (revision, budget) = (self.revision + 1, self.budget);

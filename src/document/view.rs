@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::document::contents::Document;
 use crate::document::eye::EyeState;
 use crate::document::object::ObjectId;
+use crate::document::stepper_kind::{StepperChoices, StepperKind};
 
 /// Camera, parameters, panels and selection. Unknown entries of a file are ignored, missing ones take defaults.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -23,6 +24,10 @@ pub struct View {
     pub plots: BTreeMap<ObjectId, PlotWindow>,
     /// The parameter t of each curve.
     pub parameters: BTreeMap<ObjectId, f64>,
+    /// The algorithm that is told step by step.
+    pub stepper: StepperKind,
+    /// What that algorithm needs beside the curve and its parameter.
+    pub stepper_choices: StepperChoices,
     /// Name of the open workspace; empty for the first.
     pub workspace: String,
     /// Name of the look; empty for the program's choice.

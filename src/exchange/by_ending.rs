@@ -266,11 +266,11 @@ fn read_svg(path: &Path) -> Result<String, ByEndingError> {
     Ok(text)
 }
 
-fn ending_of(path: &Path) -> String {
+pub(super) fn ending_of(path: &Path) -> String {
     path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default()
 }
 
-fn unknown_ending(path: &Path, supported: &[&str]) -> ByEndingError {
+pub(super) fn unknown_ending(path: &Path, supported: &[&str]) -> ByEndingError {
     let supported = supported.iter().map(|ending| format!(".{ending}")).collect::<Vec<_>>().join(", ");
     ByEndingError::UnknownEnding { path: path.to_owned(), ending: ending_of(path), supported }
 }

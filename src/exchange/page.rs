@@ -55,8 +55,8 @@ pub(super) enum PageItem<'a> {
     Disc { center: DVec2, radius: f64, stroke: Option<Stroke>, fill: Option<Color> },
     /// A line of text; `at` is on its base line.
     Text { at: DVec2, text: &'a str, size: f64, color: Color, anchor: Anchor },
-    /// A formula; `at` is the left end of its base line.
-    Formula { at: DVec2, layout: FormulaLayout, color: Color },
+    /// A formula with what it was typed as; `at` is the left end of its base line.
+    Formula { at: DVec2, layout: FormulaLayout, source: &'a str, size: f64, color: Color },
     /// An image; `corner` is its upper left one.
     Image { corner: DVec2, size: DVec2, image: Arc<Image> },
 }
@@ -167,5 +167,5 @@ fn label_on_page<'a>(label: &'a Label, view: &Viewport) -> Option<PageItem<'a>> 
         return Some(PageItem::Text { at, text: &label.text, size, color, anchor });
     };
     let before = anchor.part_before() * layout.width;
-    Some(PageItem::Formula { at: DVec2::new(at.x - before, at.y), layout, color })
+    Some(PageItem::Formula { at: DVec2::new(at.x - before, at.y), layout, source: &label.text, size, color })
 }

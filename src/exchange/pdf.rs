@@ -1,6 +1,6 @@
 //! PDF pages: vector paths, and text with the lab's own fonts inside the file.
 //!
-//! One page of the size of the view. Layers keep their order. Coordinates are those of PDF, about seven decimal digits.
+//! Every page has the size of its view. Layers keep their order. Coordinates are those of PDF, about seven decimal digits.
 
 use glam::DVec2;
 use krilla::Document;
@@ -50,29 +50,43 @@ pub enum PdfError {
 ///
 /// `BadSize`, `Failed`.
 pub fn write_pdf(picture: &Picture, view: &Viewport) -> Result<Vec<u8>, PdfError> {
-    for (what, value) in [("width", view.size.x), ("height", view.size.y)] {
-        if !(3.0..=LONGEST_SIDE).contains(&value) {
-            return Err(PdfError::BadSize { what, value });
-        }
-    }
+    write_pdf_pages([(picture, view)])
+}
+
+/// The pictures as a PDF file, a page for each.
+///
+/// # Errors
+///
+/// `BadSize`, `Failed`.
+pub fn write_pdf_pages<'a>(
+    pages: impl IntoIterator<Item = (&'a Picture, &'a Viewport)>,
+) -> Result<Vec<u8>, PdfError> {
     let failed = |reason: &str| PdfError::Failed { reason: reason.to_owned() };
-    let size = PageSettings::from_wh(view.size.x as f32, view.size.y as f32)
-        .ok_or_else(|| failed("the page has no size"))?;
     let fonts = Fonts::new().ok_or_else(|| failed("a font is damaged"))?;
     let mut document = Document::new();
-    let mut page = document.start_page_with(size);
-    let mut surface = page.surface();
-    if let Some(color) = picture.background {
-        let corners = [DVec2::ZERO, DVec2::new(view.size.x, 0.0), view.size, DVec2::new(0.0, view.size.y)];
-        draw_path(&mut surface, &Path::polygon(&corners, None, Some(color)));
-    }
-    for layer in lay_out(picture, view, Medium::Vectors) {
-        for item in &layer.items {
-            draw_item(&mut surface, item, &fonts);
+    for (picture, view) in pages {
+        for (what, value) in [("width", view.size.x), ("height", view.size.y)] {
+            if !(3.0..=LONGEST_SIDE).contains(&value) {
+                return Err(PdfError::BadSize { what, value });
+            }
         }
+        let size = PageSettings::from_wh(view.size.x as f32, view.size.y as f32)
+            .ok_or_else(|| failed("the page has no size"))?;
+        let mut page = document.start_page_with(size);
+        let mut surface = page.surface();
+        if let Some(color) = picture.background {
+            let corners =
+                [DVec2::ZERO, DVec2::new(view.size.x, 0.0), view.size, DVec2::new(0.0, view.size.y)];
+            draw_path(&mut surface, &Path::polygon(&corners, None, Some(color)));
+        }
+        for layer in lay_out(picture, view, Medium::Vectors) {
+            for item in &layer.items {
+                draw_item(&mut surface, item, &fonts);
+            }
+        }
+        surface.finish();
+        page.finish();
     }
-    surface.finish();
-    page.finish();
     document.finish().map_err(|error| PdfError::Failed { reason: format!("{error:?}") })
 }
 
@@ -100,7 +114,7 @@ fn draw_item(surface: &mut Surface<'_>, item: &PageItem<'_>, fonts: &Fonts) {
         PageItem::Text { at, text, size, color, anchor } => {
             draw_line(surface, fonts, *at, text, *size, *color, *anchor);
         }
-        PageItem::Formula { at, layout, color } => draw_formula(surface, fonts, *at, layout, *color),
+        PageItem::Formula { at, layout, color, .. } => draw_formula(surface, fonts, *at, layout, *color),
         PageItem::Image { corner, size, image } => draw_image(surface, *corner, *size, image),
     }
 }

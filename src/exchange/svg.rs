@@ -275,7 +275,7 @@ fn write_item(svg: &mut String, item: &PageItem<'_>) {
         PageItem::Text { at, text, size, color, anchor } => {
             write_text(svg, *at, text, *size, *color, *anchor);
         }
-        PageItem::Formula { at, layout, color } => write_formula(svg, *at, layout, *color),
+        PageItem::Formula { at, layout, color, .. } => write_formula(svg, *at, layout, *color),
         PageItem::Image { corner, size, image } => write_image(svg, *corner, *size, image),
     }
 }

@@ -17,6 +17,7 @@ impl Command {
             Self::Save => (COMMAND, Key::S),
             Self::SaveAs => (COMMAND_SHIFT, Key::S),
             Self::ExportFigure => (COMMAND, Key::E),
+            Self::ExportFrames => (COMMAND_SHIFT, Key::E),
             Self::Quit => (COMMAND, Key::Q),
             Self::Undo => (COMMAND, Key::Z),
             Self::Redo => (COMMAND_SHIFT, Key::Z),
@@ -44,6 +45,11 @@ impl Command {
             Self::CycleErrorPlot => (NONE, Key::L),
             Self::InsertKnot => (NONE, Key::K),
             Self::RemoveKnot => (Modifiers::SHIFT, Key::K),
+            Self::NextKnot => (NONE, Key::Period),
+            Self::PreviousKnot => (NONE, Key::Comma),
+            Self::ToggleKeepCurve => (Modifiers::SHIFT, Key::C),
+            Self::ToggleBuilder => (Modifiers::SHIFT, Key::B),
+            Self::RemoveKnotsWithin => (Modifiers::SHIFT, Key::Delete),
             Self::RefineUniformly => (NONE, Key::R),
             Self::ElevateDegree => (NONE, Key::E),
             Self::ReduceDegree => (Modifiers::SHIFT, Key::E),
@@ -86,8 +92,11 @@ impl Command {
             Self::StepperPlay => (NONE, Key::Enter),
             Self::StepForward => (NONE, Key::CloseBracket),
             Self::StepBack => (NONE, Key::OpenBracket),
+            Self::NextAlgorithm => (COMMAND, Key::CloseBracket),
+            Self::PreviousAlgorithm => (COMMAND, Key::OpenBracket),
             Self::NextLesson => (NONE, Key::PageDown),
             Self::PreviousLesson => (NONE, Key::PageUp),
+            Self::BackToExample => (NONE, Key::Home),
             Self::Palette => (COMMAND, Key::P),
             Self::ShortcutSheet => (NONE, Key::F1),
             Self::ImportMesh
@@ -104,6 +113,11 @@ impl Command {
             | Self::SampleFunction
             | Self::FirstScene
             | Self::Reverse
+            | Self::UniformKnots
+            | Self::EndInterpolatingKnots
+            | Self::ChordLengthKnots
+            | Self::CentripetalKnots
+            | Self::AveragedKnots
             | Self::ResetWeights => return None,
         };
         Some(KeyboardShortcut::new(modifiers, key))

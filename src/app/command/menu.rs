@@ -79,9 +79,13 @@ impl Command {
             | Self::ToggleHull
             | Self::ToggleCircle
             | Self::ToggleKnotLine
+            | Self::ToggleBuilder
+            | Self::ExportFrames
             | Self::StepperPlay
             | Self::StepForward
-            | Self::StepBack => Some(Room::Curves),
+            | Self::StepBack
+            | Self::NextAlgorithm
+            | Self::PreviousAlgorithm => Some(Room::Curves),
             Self::ExportMesh => Some(Room::Surfaces),
             _ => self.menu().room(),
         }
@@ -95,6 +99,7 @@ impl Command {
             | Self::Save
             | Self::SaveAs
             | Self::ExportFigure
+            | Self::ExportFrames
             | Self::ImportMesh
             | Self::ExportMesh
             | Self::ImportData
@@ -109,6 +114,15 @@ impl Command {
             | Self::DrawTool
             | Self::InsertKnot
             | Self::RemoveKnot
+            | Self::RemoveKnotsWithin
+            | Self::NextKnot
+            | Self::PreviousKnot
+            | Self::ToggleKeepCurve
+            | Self::UniformKnots
+            | Self::EndInterpolatingKnots
+            | Self::ChordLengthKnots
+            | Self::CentripetalKnots
+            | Self::AveragedKnots
             | Self::RefineUniformly
             | Self::ElevateDegree
             | Self::ReduceDegree
@@ -159,8 +173,11 @@ impl Command {
             Self::StepperPlay
             | Self::StepForward
             | Self::StepBack
+            | Self::NextAlgorithm
+            | Self::PreviousAlgorithm
             | Self::NextLesson
-            | Self::PreviousLesson => Menu::Lesson,
+            | Self::PreviousLesson
+            | Self::BackToExample => Menu::Lesson,
             Self::Palette | Self::ShortcutSheet => Menu::Help,
             _ => Menu::View,
         }

@@ -19,6 +19,8 @@ pub enum Command {
     SaveAs,
     /// Writes a figure of the canvas.
     ExportFigure,
+    /// Writes all frames of the algorithm that is stepped through.
+    ExportFrames,
     /// Adds the mesh of an OBJ file.
     ImportMesh,
     /// Writes the selected mesh at the level shown.
@@ -75,6 +77,26 @@ pub enum Command {
     InsertKnot,
     /// Removes the selected knot.
     RemoveKnot,
+    /// Removes all knots that a tolerance does not need.
+    RemoveKnotsWithin,
+    /// Selects the next knot.
+    NextKnot,
+    /// Selects the knot before.
+    PreviousKnot,
+    /// While knots move: the control points stay, or the curve.
+    ToggleKeepCurve,
+    /// Equally distant simple knots.
+    UniformKnots,
+    /// Equally distant knots with n-fold ends.
+    EndInterpolatingKnots,
+    /// Knots spaced like the control points.
+    ChordLengthKnots,
+    /// Knots spaced like the square roots of the chords.
+    CentripetalKnots,
+    /// Averages of the chord lengths.
+    AveragedKnots,
+    /// One B-spline as two of lower degree, in the knot line.
+    ToggleBuilder,
     /// Inserts a knot in the middle of every interval.
     RefineUniformly,
     /// Raises the degree, shape kept.
@@ -181,6 +203,10 @@ pub enum Command {
     LookDark,
     /// Look for a projector.
     LookPresentation,
+    /// The next algorithm of the stepper.
+    NextAlgorithm,
+    /// The algorithm before.
+    PreviousAlgorithm,
     /// Plays the construction step by step, or stops.
     StepperPlay,
     /// One step on.
@@ -191,6 +217,8 @@ pub enum Command {
     NextLesson,
     /// Previous lesson.
     PreviousLesson,
+    /// The lesson's scene as it was at first.
+    BackToExample,
     /// Finds a command by name.
     Palette,
     /// All shortcuts.
@@ -199,12 +227,13 @@ pub enum Command {
 
 impl Command {
     /// All commands, in the order of menus, palette and sheet.
-    pub const ALL: [Self; 93] = [
+    pub const ALL: [Self; 107] = [
         Self::New,
         Self::Open,
         Self::Save,
         Self::SaveAs,
         Self::ExportFigure,
+        Self::ExportFrames,
         Self::ImportMesh,
         Self::ExportMesh,
         Self::ImportData,
@@ -233,6 +262,16 @@ impl Command {
         Self::CycleErrorPlot,
         Self::InsertKnot,
         Self::RemoveKnot,
+        Self::RemoveKnotsWithin,
+        Self::NextKnot,
+        Self::PreviousKnot,
+        Self::ToggleKeepCurve,
+        Self::UniformKnots,
+        Self::EndInterpolatingKnots,
+        Self::ChordLengthKnots,
+        Self::CentripetalKnots,
+        Self::AveragedKnots,
+        Self::ToggleBuilder,
         Self::RefineUniformly,
         Self::ElevateDegree,
         Self::ReduceDegree,
@@ -289,8 +328,11 @@ impl Command {
         Self::StepperPlay,
         Self::StepForward,
         Self::StepBack,
+        Self::NextAlgorithm,
+        Self::PreviousAlgorithm,
         Self::NextLesson,
         Self::PreviousLesson,
+        Self::BackToExample,
         Self::Palette,
         Self::ShortcutSheet,
     ];

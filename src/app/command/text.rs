@@ -11,6 +11,10 @@ impl Command {
             Self::Save => ("Save", "Save the document"),
             Self::SaveAs => ("Save as…", "Save under another name"),
             Self::ExportFigure => ("Export figure…", "Write what the canvas shows as SVG, PDF or PNG"),
+            Self::ExportFrames => (
+                "Export frames…",
+                "Write every step of the algorithm: numbered SVG or PNG, one PDF, or a TikZ slide with overlays",
+            ),
             Self::ImportData => {
                 ("Import data…", "Read a table of x and y, with weights if wanted, from a CSV file")
             }
@@ -74,6 +78,34 @@ impl Command {
             Self::RemoveKnot => {
                 ("Remove knot", "Remove one copy of the selected knot; the deviation is measured")
             }
+            Self::RemoveKnotsWithin => (
+                "Remove superfluous knots",
+                "Remove as many knots as the tolerance of the knot line allows; the deviation is certified",
+            ),
+            Self::NextKnot => ("Next knot", "Select the next knot; arrow keys move it"),
+            Self::PreviousKnot => ("Previous knot", "Select the knot before; arrow keys move it"),
+            Self::ToggleKeepCurve => (
+                "Keep the curve",
+                "While knots move: keep the curve, with certified deviation, or the control points",
+            ),
+            Self::UniformKnots => ("Uniform knots", "Equal distances, simple knots"),
+            Self::EndInterpolatingKnots => {
+                ("End-interpolating knots", "Equal distances, n-fold ends; for a closed curve an n-fold seam")
+            }
+            Self::ChordLengthKnots => {
+                ("Chord length knots", "Distances like those of the active control points")
+            }
+            Self::CentripetalKnots => {
+                ("Centripetal knots", "Distances like the square roots of those of the control points")
+            }
+            Self::AveragedKnots => (
+                "Averaged knots",
+                "Averages of the chord lengths, so that each control point has its Greville abscissa near its own",
+            ),
+            Self::ToggleBuilder => (
+                "Basis builder",
+                "One B-spline as two of lower degree times linear factors, in the knot line",
+            ),
             Self::RefineUniformly => {
                 ("Refine all intervals", "Insert a knot in the middle of every interval; the shape is kept")
             }
@@ -133,11 +165,19 @@ impl Command {
             Self::LookLight => ("Light look", "Dark ink on a light ground"),
             Self::LookDark => ("Dark look", "Light ink on a dark ground"),
             Self::LookPresentation => ("Presentation look", "Large type and thick lines for a projector"),
-            Self::StepperPlay => ("Play the construction", "Play de Boor's algorithm step by step, or pause"),
+            Self::StepperPlay => {
+                ("Play the construction", "Play the chosen algorithm step by step, or pause")
+            }
             Self::StepForward => ("Step forward", "The next step of the algorithm"),
             Self::StepBack => ("Step back", "The step before"),
+            Self::NextAlgorithm => ("Next algorithm", "Step through the next algorithm of the course"),
+            Self::PreviousAlgorithm => ("Previous algorithm", "Step through the algorithm before"),
             Self::NextLesson => ("Next lesson", "Open the next lesson of the course"),
             Self::PreviousLesson => ("Previous lesson", "Open the lesson before"),
+            Self::BackToExample => (
+                "Back to the example",
+                "Show the lesson's scene as it was at first; Ctrl+Z brings back your work",
+            ),
             Self::Palette => ("Find a command…", "Type a few letters of what you want to do"),
             Self::ShortcutSheet => ("Shortcuts", "All keys and what the mouse does"),
         }

@@ -11,13 +11,14 @@ use crate::app::curves::draw_tool::Drawing;
 use crate::app::curves::gesture::Gesture;
 use crate::app::curves::handles;
 use crate::app::curves::hit::{Target, Trees, target_at};
+use crate::app::curves::step_hands::{self, StepHands};
 use crate::app::hands;
 use crate::app::lab::{DrawMode, Hovered, Lab, Tool};
 use crate::app::painter::{
     color32, paint_note, paint_note_at_pointer, paint_picture, screen_from_world, world_from_screen,
 };
 use crate::document::{Edit, ObjectId};
-use crate::figure::composition::{Composition, GRID, SchemeReveal, compose_with, short_number};
+use crate::figure::composition::{Composition, GRID, StepDrawing, compose_with, short_number};
 use crate::figure::picture::Viewport;
 
 /// Room around the objects when they are fitted, in pt.
@@ -32,6 +33,7 @@ pub(crate) struct Canvas {
     opened: u64,
     gesture: Option<Gesture>,
     drawing: Drawing,
+    step_hands: StepHands,
     menu_target: Target,
     /// Where the menu was asked for.
     menu_place: DVec2,
@@ -83,10 +85,13 @@ impl Canvas {
             let held = ui.input(|input| input.pointer.primary_down());
             self.drawing.rest(lab, held);
         }
-        self.use_hands(lab, &response, &viewport, rect, target, ui);
+        if !self.step_hands.drag(lab, &response, &viewport, rect, ui) {
+            self.use_hands(lab, &response, &viewport, rect, target, ui);
+        }
         self.turn_wheel_on_weight(lab, target, ui);
         commands::nudge(lab, &viewport, ui);
         hover(lab, target);
+        step_hands::hover(lab, target, pointer, &viewport, rect);
         self.paint(lab, &viewport, rect, pointer, ui);
         handles::announce(self.named(lab), &viewport, rect, ui);
         self.point_cursor(lab, target, pointer, ui);
@@ -266,9 +271,10 @@ impl Canvas {
 
     fn paint(&self, lab: &Lab, viewport: &Viewport, rect: Rect, pointer: Option<Pos2>, ui: &Ui) {
         let painter = ui.painter_at(rect);
-        let choices = Composition { reveal: reveal(lab), transparent: false };
+        let choices = Composition { step: step(lab), transparent: false };
         let picture = compose_with(lab.history.document(), &lab.view, &lab.theme, viewport, &choices);
         paint_picture(&picture, viewport, rect, &painter);
+        self.step_hands.paint(lab, viewport, rect, &painter, ui);
         let along = self.gesture.as_ref().map_or(0.0, Gesture::along);
         handles::paint(lab, viewport, rect, &painter, along);
         if lab.tool == Tool::Draw {
@@ -356,16 +362,13 @@ fn hint(lab: &Lab) -> Option<&'static str> {
     )
 }
 
-/// The part of the scheme that the stepper shows.
-fn reveal(lab: &Lab) -> Option<(ObjectId, SchemeReveal)> {
+/// What the stepper shows.
+fn step(lab: &Lab) -> Option<(ObjectId, StepDrawing)> {
     if !lab.stepper.open {
         return None;
     }
     let (object, stepper) = (lab.selection.object?, lab.scheme()?);
-    let frames = stepper.frames();
-    let frame = frames.get(lab.stepper.frame)?;
-    let shown = frames[..=lab.stepper.frame].iter().flat_map(|frame| frame.reveals.iter().copied()).collect();
-    Some((object, SchemeReveal { shown, highlighted: frame.highlights.iter().copied().collect() }))
+    Some((object, stepper.drawing(lab.stepper.frame)))
 }
 
 fn hover(lab: &mut Lab, target: Target) {

@@ -225,12 +225,14 @@ fn paint_hover(
             }
         }
         Hovered::Entry(id, level, position) if id == object.id => {
-            let parameter = lab.parameter(object.id);
-            if let Some(scheme) = parameter.and_then(|parameter| curve.de_boor_scheme(parameter).ok())
-                && let Some(&lifted) = scheme.triangle.levels().get(level).and_then(|row| row.get(position))
-            {
-                let at = lifted.truncate() / lifted.z;
+            let entry = lab.scheme().and_then(|stepper| stepper.entry(level, position).cloned());
+            if let Some(at) = entry.as_ref().and_then(|entry| entry.at) {
                 painter.circle_stroke(place(at), 10.0, Stroke::new(2.5, glow));
+            }
+            for point in entry.into_iter().flat_map(|entry| entry.partners) {
+                if let Some(&at) = curve.points().get(point) {
+                    painter.circle_stroke(place(at), 8.0, Stroke::new(1.5, glow.gamma_multiply(0.7)));
+                }
             }
         }
         _ => {}

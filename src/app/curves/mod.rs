@@ -9,6 +9,7 @@ mod draw_tool;
 mod gesture;
 mod handles;
 mod hit;
+mod step_hands;
 mod tools;
 mod weight_handles;
 
@@ -41,7 +42,7 @@ impl Workspace for Curves {
         if open(crate::app::KNOT_LINE) {
             egui::Panel::bottom("knot line")
                 .resizable(true)
-                .default_size(170.0)
+                .default_size(190.0)
                 .size_range(110.0..=420.0)
                 .show(ui, |ui| crate::app::knot_line::show(lab, ui));
         }
@@ -56,7 +57,7 @@ impl Workspace for Curves {
     }
 
     fn execute(&mut self, command: Command, lab: &mut Lab) -> bool {
-        self.canvas.execute(command, lab)
+        crate::app::knot_line::execute(command, lab) || self.canvas.execute(command, lab)
     }
 
     fn status(&self, lab: &Lab) -> String {

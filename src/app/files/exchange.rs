@@ -14,6 +14,7 @@ use crate::core::progress::{Part, Watcher};
 use crate::document::{Content, Edit, MeshObject, Object};
 use crate::exchange::by_ending::{self, FigureFormat};
 use crate::exchange::csv::{CsvError, read_csv_file, write_csv};
+use crate::exchange::frames::write_frames;
 use crate::exchange::obj;
 use crate::figure::page::page;
 use crate::figure::picture::Viewport;
@@ -74,6 +75,27 @@ impl Files {
                 by_ending::write_file(&path, &bytes).map_err(|error| error.to_string())
             });
             said(written, "Figure written to", "The figure was not written", path)
+        });
+    }
+
+    /// Writes all frames of the algorithm on the selected curve, as the canvas shows it.
+    pub(super) fn export_frames(&mut self, path: PathBuf, lab: &mut Lab, ctx: &Context) {
+        let (document, view, theme) = (lab.history.document().clone(), view_to_save(lab), lab.theme.clone());
+        let camera = lab.view.room_camera();
+        let viewport = Viewport { center: camera.center, scale: camera.scale, size: lab.canvas_size };
+        self.start_job(format!("Writing {}", name_of(&path)), lab, ctx, move |watcher| {
+            let written = write_frames(&path, &document, &view, &theme, &viewport, PNG_SCALE, watcher);
+            Box::new(move |files, lab| match written {
+                Ok(written) => match &written[..] {
+                    [first, .., last] => {
+                        lab.done(format!("Frames written to {} … {}", name_of(first), name_of(last)));
+                    }
+                    _ => lab.done(format!("Frames written to {}", name_of(&path))),
+                },
+                Err(error) => {
+                    files.problems.push(Problem::new("The frames were not written", error.to_string()));
+                }
+            })
         });
     }
 

@@ -1,12 +1,16 @@
 //! Lessons come onto the desk and go; the person's own document and work on lessons are kept meanwhile.
 
-use crate::app::lab::{Lab, LessonState, SidePage};
+use crate::app::lab::{Lab, LessonState, SidePage, StepperState, Tool};
 use crate::app::sheet::Sheet;
+use crate::document::View;
+
+/// Name of the undo step of [`back_to_example`].
+const EXAMPLE_STEP: &str = "Back to the example";
 
 /// Opens lesson `index` of the course. The person's own document is put aside with its undo; a lesson that was worked
 /// on before is as it was left. An index beyond the last lesson changes nothing.
 pub(crate) fn open_lesson(lab: &mut Lab, index: usize) {
-    let Some(lesson) = crate::course::lessons().into_iter().nth(index) else { return };
+    let Some(lesson) = crate::course::lessons().get(index) else { return };
     if lab.lesson.as_ref().is_some_and(|state| state.index == index) {
         return;
     }
@@ -14,18 +18,24 @@ pub(crate) fn open_lesson(lab: &mut Lab, index: usize) {
     let sheet = kept.unwrap_or_else(|| Sheet::new(lesson.document.clone(), lesson.view.clone(), None));
     let before = lab.put(sheet);
     put_aside(lab, before);
-    lab.lesson = Some(LessonState { index, lesson, answer: String::new(), verdict: None });
+    lab.lesson = Some(LessonState { index, lesson: lesson.clone(), answer: String::new(), verdict: None });
     lab.side = SidePage::Lesson;
 }
 
-/// Shows the open lesson as it was at first. One undo step would not do: the document is a new one.
-pub(crate) fn restart_lesson(lab: &mut Lab) {
-    if let Some(state) = &mut lab.lesson {
-        state.answer.clear();
-        state.verdict = None;
-        let sheet = Sheet::new(state.lesson.document.clone(), state.lesson.view.clone(), None);
-        lab.put(sheet);
-    }
+/// Shows the scene of the open lesson as it was at first. One undo step brings back what was there.
+pub(crate) fn back_to_example(lab: &mut Lab) {
+    let Some(state) = &mut lab.lesson else { return };
+    state.answer.clear();
+    state.verdict = None;
+    let example = Sheet::new(state.lesson.document.clone(), state.lesson.view.clone(), None);
+    lab.history.restore(EXAMPLE_STEP, example.history.document().clone());
+    let panels = std::mem::take(&mut lab.view.panels);
+    lab.view = View { panels, ..example.view };
+    lab.selection = example.selection;
+    lab.tool = Tool::Select;
+    lab.stepper = StepperState { open: lab.stepper.open, ..StepperState::default() };
+    lab.shape_note = None;
+    lab.shelf.opened += 1;
 }
 
 /// Puts the person's own document back on the desk; `false` if none was put aside.

@@ -22,13 +22,14 @@ use crate::app::preferences::{self, Preferences};
 use crate::app::sheet::Sheet;
 use crate::document::{self, Document, EXTENSION, Recovered, Saved, View};
 use crate::exchange::by_ending::{self, FIGURE_ENDINGS};
+use crate::exchange::frames::FRAME_ENDINGS;
 use crate::figure::theme::Theme;
 
 use job::Job;
 use keeper::Keeper;
 use question::{Problem, Question, Reply};
 
-pub(crate) use lessons::{back_to_document, open_lesson, restart_lesson};
+pub(crate) use lessons::{back_to_document, back_to_example, open_lesson};
 
 /// What is to be done once nothing can be lost any more.
 #[derive(Debug)]
@@ -45,6 +46,7 @@ enum Wanted {
     Open,
     Save(Option<Then>),
     Figure,
+    Frames,
     Mesh,
     MeshOut,
     Data,
@@ -159,6 +161,7 @@ impl Files {
             Command::ImportMesh => self.ask_for_file(Wanted::Mesh, lab),
             Command::ExportMesh => self.ask_for_file(Wanted::MeshOut, lab),
             Command::ExportFigure => self.ask_for_file(Wanted::Figure, lab),
+            Command::ExportFrames => self.ask_for_file(Wanted::Frames, lab),
             Command::ImportData => self.ask_for_file(Wanted::Data, lab),
             Command::ExportData => self.ask_for_file(Wanted::DataCopy, lab),
             Command::NewApproximation => new_approximation(lab, None),
@@ -219,6 +222,13 @@ impl Files {
             Wanted::Figure => {
                 (Purpose::Save, "Export a figure", "figures", FIGURE_ENDINGS, format!("{name}.svg"))
             }
+            Wanted::Frames => (
+                Purpose::Save,
+                "Export all frames",
+                "figures",
+                FRAME_ENDINGS,
+                format!("{name}-{}.svg", lab.view.stepper.key()),
+            ),
             Wanted::Data => (Purpose::Open, "Import data", "tables", exchange::TABLES, String::new()),
             Wanted::DataCopy => {
                 (Purpose::Save, "Export the data", "tables", exchange::TABLES, format!("{name}.csv"))
@@ -238,6 +248,7 @@ impl Files {
             Wanted::Open | Wanted::Mesh => self.open(&path, lab, ui.ctx()),
             Wanted::MeshOut => self.export_mesh(path, lab, ui.ctx()),
             Wanted::Figure => self.export(path, lab, ui.ctx()),
+            Wanted::Frames => self.export_frames(path, lab, ui.ctx()),
             Wanted::Data => self.import_data(&path, lab),
             Wanted::DataCopy => self.export_data(&path, lab),
             Wanted::Save(then) => {

@@ -169,6 +169,26 @@ fn a_figure_opens_again_as_the_document_it_shows() {
 }
 
 #[test]
+fn frames_are_written_as_numbered_files_one_document_or_a_slide() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = window(Directories::none());
+    window.state_mut().lab.at_once = true;
+    window.state_mut().lab.view.stepper = document::StepperKind::KnotInsertion;
+    let count = window.state().lab.scheme().unwrap().frames().len();
+    for (name, expected) in [("steps.svg", count), ("steps.pdf", 1), ("steps.tex", 1)] {
+        let before = fs::read_dir(folder.path()).unwrap().count();
+        command(&mut window, Command::ExportFrames);
+        answer_with(&mut window, &folder.path().join(name));
+        let written = fs::read_dir(folder.path()).unwrap().count() - before;
+        assert_eq!(written, expected, "{name}: {:?}", window.state().files.problems);
+    }
+    assert!(folder.path().join("steps-01.svg").exists(), "numbered");
+    command(&mut window, Command::ExportFrames);
+    answer_with(&mut window, &folder.path().join("steps.doc"));
+    assert!(window.query_by_label_contains(".tex").is_some(), "the possible endings are named");
+}
+
+#[test]
 fn a_mesh_is_exported_and_imported_again() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("cube.obj");
@@ -233,8 +253,12 @@ fn the_own_document_and_work_on_a_lesson_wait_for_each_other() {
     assert!(lab.history.undo_name().is_some(), "its undo");
     open_lesson(lab, 0);
     assert_eq!(lab.history.document(), &worked_on, "the work on the lesson");
-    restart_lesson(lab);
+    back_to_example(lab);
     assert_eq!(lab.history.document(), &lesson, "the lesson from its beginning");
+    assert_eq!(lab.history.undo_name(), Some("Back to the example"), "one step");
+    lab.history.undo();
+    assert_eq!(lab.history.document(), &worked_on, "and the work on it is not lost");
+    back_to_example(lab);
     open_lesson(lab, usize::MAX);
     assert_eq!(lab.history.document(), &lesson, "there is no such lesson");
 }

@@ -1,21 +1,28 @@
 //! The knot line: parameter axis, knots and basis functions of the selected curve, tied to the canvas by colour and hover.
 
+mod actions;
 mod axis;
 mod bars;
 mod basis;
+mod builder;
+mod dial;
+mod hand;
+mod header;
 mod knots;
+mod note;
 mod plot;
+mod pyramid;
 
 use eframe::egui::{Color32, Rect, RichText, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 use glam::DVec2;
 
+use crate::app::command::Command;
 use crate::app::knot_line::axis::Axis;
 use crate::app::knot_line::basis::Active;
+use crate::app::knot_line::hand::Track;
 use crate::app::lab::{Hovered, Lab};
-use crate::app::number_field::{NumberEvent, NumberField};
-use crate::app::number_text::short;
 use crate::app::painter::color32;
-use crate::core::spline_curve::Nurbs;
+use crate::core::spline_curve::{KnotRule, Nurbs};
 use crate::document::ObjectId;
 
 /// Height of the strip with the knots beneath the axis, in points.
@@ -34,6 +41,8 @@ struct Scene {
     /// Where the knots stand.
     strip: Rect,
     active: Active,
+    /// Whether a knot is held.
+    busy: bool,
 }
 
 impl Scene {
@@ -52,10 +61,7 @@ impl Scene {
     fn is_lit(&self, lab: &Lab, k: usize) -> bool {
         match lab.hovered {
             Hovered::Point(object, point) => object == self.object && point == k,
-            Hovered::Entry(object, level, position) => {
-                object == self.object
-                    && (position..=position + level).any(|j| self.active.coefficients.get(j) == Some(&k))
-            }
+            Hovered::Entry(object, ..) => object == self.object && lab.entry_partners.contains(&k),
             _ => false,
         }
     }
@@ -75,85 +81,77 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
         return;
     };
     let Some(t) = lab.parameter(object) else { return };
+    builder::follow_panel(lab);
     let id = ui.make_persistent_id("knot line axis").with(object);
     let zoomed = ui.data(|data| data.get_temp::<bool>(id.with("zoomed"))).unwrap_or(false);
-    header(lab, ui, object, &curve, t, zoomed.then_some(id));
-    let t = lab.parameter(object).unwrap_or(t);
+    header::show(lab, ui, object, &curve, t, zoomed.then_some(id));
+    actions::arrows(lab, ui);
+    builder::keys(lab, ui, curve.points().len(), curve.degree());
 
-    let area = ui.available_rect_before_wrap();
-    if area.width() < 60.0 || area.height() < KNOT_STRIP + 16.0 {
+    let whole = ui.available_rect_before_wrap();
+    if whole.width() < 60.0 || whole.height() < KNOT_STRIP + 16.0 {
         return;
     }
+    // What the row above has just done counts.
+    let Some(curve) = lab.curve().cloned() else { return };
+    let Some(t) = lab.parameter(object) else { return };
+    let building = lab.knots.builder.is_some();
+    // The builder needs the whole width.
+    let dial_width = dial::width(whole.size(), curve.space().is_periodic() && !building);
+    let area = Rect::from_min_max(whole.min + vec2(dial_width, 0.0), whole.max);
     let active = basis::active(&curve, t);
-    let bars_width = bars::width(area.width(), active.values.len());
+    let bars_width = if building { 0.0 } else { bars::width(area.width(), active.values.len()) };
     let inner = Rect::from_min_max(area.min, area.max - vec2(bars_width, 0.0)).shrink2(vec2(4.0, 0.0));
     let split = inner.bottom() - KNOT_STRIP;
     let plot = Rect::from_min_max(inner.min, pos2(inner.right(), split));
     let strip = Rect::from_min_max(pos2(inner.left(), split), inner.max);
 
     // The axis stands still during a drag, even if D changes.
-    let axis = knots::frozen_axis(ui, id).unwrap_or_else(|| Axis::new(ui, id, curve.space(), plot));
+    let axis = match hand::frozen(ui, id) {
+        Some(Track::Line(axis)) => axis,
+        _ => Axis::new(ui, id, curve.space(), plot),
+    };
+    let busy = [id, id.with("dial")].into_iter().any(|id| hand::frozen(ui, id).is_some());
     let response = ui.allocate_rect(area, Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, "Basis functions"));
     let zoomed_now = axis::navigate(ui, id, inner, &response);
     ui.data_mut(|data| data.insert_temp(id.with("zoomed"), zoomed_now));
 
-    let scene = Scene { object, curve, t, axis, plot, strip, active };
-    plot::show(lab, ui, &scene, &response);
-    knots::show(lab, ui, id, &scene);
+    let scene = Scene { object, curve, t, axis, plot, strip, active, busy };
+    builder::tidy(lab, &scene);
+    plot::show(lab, ui, &scene);
+    if !knots::show(lab, ui, id, &scene) && !busy {
+        plot::interact(lab, ui, &scene, &response);
+    }
     if bars_width > 0.0 {
         let rect = Rect::from_min_max(pos2(inner.right() + 8.0, area.top()), area.max);
         bars::show(lab, ui, &scene, rect);
     }
+    if dial_width > 0.0 {
+        let rect = Rect::from_min_size(whole.min, vec2(dial_width, whole.height()));
+        dial::show(lab, ui, id, &scene, rect);
+    }
 }
 
-/// One line above the plot: `t`, and what the space is.
-fn header(
-    lab: &mut Lab,
-    ui: &mut Ui,
-    object: ObjectId,
-    curve: &Nurbs<DVec2>,
-    t: f64,
-    zoomed: Option<eframe::egui::Id>,
-) {
-    ui.horizontal(|ui| {
-        ui.label(RichText::new("t").italics());
-        let (left, right) = curve.space().parameter_interval();
-        let field = NumberField::new("Parameter t", t)
-            .width(74.0)
-            .drag(crate::app::number_field::Drag::PerPixel((right - left) / 500.0))
-            .show(ui, "parameter");
-        field.response.on_hover_text("The parameter: drag, or click to type");
-        if let Some(NumberEvent::Typed { to: value, .. } | NumberEvent::Dragged { to: value, .. }) =
-            field.event
-        {
-            if value < left || value > right {
-                lab.shape_note =
-                    Some(format!("{} lies outside [{}, {}]", short(value), short(left), short(right)));
-            }
-            lab.set_parameter(object, value);
+/// Carries out commands about knots; `false` for other commands.
+pub(crate) fn execute(command: Command, lab: &mut Lab) -> bool {
+    match command {
+        Command::UniformKnots => actions::generate(lab, KnotRule::Uniform),
+        Command::EndInterpolatingKnots => actions::generate(lab, KnotRule::EndInterpolating),
+        Command::ChordLengthKnots => actions::generate(lab, KnotRule::ChordLength),
+        Command::CentripetalKnots => actions::generate(lab, KnotRule::Centripetal),
+        Command::AveragedKnots => actions::generate(lab, KnotRule::Averaged),
+        Command::RemoveKnotsWithin => actions::remove_within(lab),
+        Command::NextKnot => actions::select_neighbour(lab, true),
+        Command::PreviousKnot => actions::select_neighbour(lab, false),
+        Command::ToggleKeepCurve => lab.knots.keep_curve = !lab.knots.keep_curve,
+        Command::ToggleBuilder => {
+            builder::toggle(lab);
+            lab.view.panels.insert(crate::app::KNOT_LINE.to_owned(), true);
         }
-        let space = curve.space();
-        let kind = match (space.is_periodic(), curve.is_polynomial()) {
-            (false, true) => "",
-            (false, false) => "rational, ",
-            (true, true) => "closed, ",
-            (true, false) => "closed, rational, ",
-        };
-        let text = format!(
-            "{kind}degree {}, {} B-splines, D = [{}, {}]",
-            space.degree(),
-            space.dimension(),
-            short(left),
-            short(right)
-        );
-        ui.add(eframe::egui::Label::new(RichText::new(text).weak()).truncate());
-        if let Some(id) = zoomed
-            && ui.small_button("Show all").on_hover_text("Show the whole parameter interval").clicked()
-        {
-            axis::reset(ui, id);
-        }
-    });
+        _ => return false,
+    }
+    true
 }
 
 #[cfg(test)]

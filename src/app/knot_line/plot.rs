@@ -6,7 +6,8 @@ use eframe::egui::{
 };
 
 use crate::app::command::Command;
-use crate::app::knot_line::{Scene, basis};
+use crate::app::knot_line::hand::context_menu;
+use crate::app::knot_line::{Scene, basis, builder};
 use crate::app::lab::{Hovered, Lab};
 use crate::app::number_field::{NumberEvent, NumberField};
 use crate::app::number_text::{round_to_step, short};
@@ -16,10 +17,14 @@ use crate::document::Edit;
 /// A function is under the pointer within this distance in points.
 const REACH: f32 = 7.0;
 
-/// Shows the functions; `response` is the area of the whole knot line.
-pub(super) fn show(lab: &mut Lab, ui: &mut Ui, scene: &Scene, response: &Response) {
+/// Shows the functions, or the builder in their place, and the parameter.
+pub(super) fn show(lab: &mut Lab, ui: &mut Ui, scene: &Scene) {
     ground(lab, ui, scene);
-    let near = function_under(scene, response);
+    if lab.knots.builder.is_some() {
+        builder::show(lab, ui, scene);
+        cursor(lab, ui, scene);
+        return;
+    }
     let (graphs, too_many) = basis::graphs(&scene.curve, &scene.axis, scene.t);
     paint_graphs(lab, ui, scene, &graphs);
     if too_many {
@@ -39,7 +44,6 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, scene: &Scene, response: &Respons
         );
     }
     cursor(lab, ui, scene);
-    interact(lab, ui, scene, response, near);
 }
 
 /// D shaded, hatching beyond, the axis.
@@ -180,6 +184,7 @@ fn cursor(lab: &mut Lab, ui: &mut Ui, scene: &Scene) {
     let response = ui.interact(handle, ui.make_persistent_id("cursor of t"), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, "Cursor of t"));
     if response.dragged_by(PointerButton::Primary)
+        && !scene.busy
         && let Some(pointer) = response.interact_pointer_pos()
     {
         lab.set_parameter(scene.object, scene.axis.parameter(pointer.x));
@@ -205,7 +210,15 @@ fn cursor(lab: &mut Lab, ui: &mut Ui, scene: &Scene) {
     }
 }
 
-fn interact(lab: &mut Lab, ui: &Ui, scene: &Scene, response: &Response, near: Option<usize>) {
+/// What the mouse does beside the knots; `response` is the area of the whole knot line.
+pub(super) fn interact(lab: &mut Lab, ui: &Ui, scene: &Scene, response: &Response) {
+    if lab.knots.builder.is_some() {
+        builder::interact(lab, scene, response);
+        note_place(ui, scene, response);
+        menu(lab, scene, response);
+        return;
+    }
+    let near = function_under(scene, response);
     let over = response.hover_pos().filter(|at| scene.plot.union(scene.strip).contains(*at));
     let (left, right) = scene.curve.space().parameter_interval();
     if let Some(pointer) = over.filter(|_| response.hovered()) {
@@ -216,46 +229,59 @@ fn interact(lab: &mut Lab, ui: &Ui, scene: &Scene, response: &Response, near: Op
             None => lab.hovering,
         };
     }
-    let pressed =
-        response.interact_pointer_pos().filter(|at| scene.plot.union(scene.strip).x_range().contains(at.x));
-    if let Some(pointer) = pressed {
-        let parameter = scene.axis.parameter(pointer.x);
-        if response.double_clicked() {
-            insert(lab, scene, round_to_step(parameter, scene.axis.per_pixel()));
-        } else if response.clicked() {
-            match near {
-                Some(k) => {
-                    if !ui.input(|input| input.modifiers.shift) {
-                        lab.selection.points.clear();
-                    }
-                    lab.selection.points.insert(k);
-                    lab.selection.knot = None;
-                }
-                None => lab.set_parameter(scene.object, parameter),
-            }
-        } else if response.dragged_by(PointerButton::Primary) {
-            lab.set_parameter(scene.object, parameter);
-        }
+    if let Some(k) = near.filter(|_| response.clicked()) {
+        choose(lab, ui, k);
+    } else {
+        set_t(lab, scene, response);
     }
-    menu(lab, ui, scene, response);
+    note_place(ui, scene, response);
+    menu(lab, scene, response);
 }
 
-fn insert(lab: &mut Lab, scene: &Scene, at: f64) {
+/// Selects control point `k` by its function; with Shift it is added.
+pub(super) fn choose(lab: &mut Lab, ui: &Ui, k: usize) {
+    if !ui.input(|input| input.modifiers.shift) {
+        lab.selection.points.clear();
+    }
+    lab.selection.points.insert(k);
+    lab.selection.knot = None;
+}
+
+/// A click or a drag on empty ground sets t, a double click inserts a knot.
+pub(super) fn set_t(lab: &mut Lab, scene: &Scene, response: &Response) {
+    let range = scene.plot.union(scene.strip).x_range();
+    let Some(pointer) = response.interact_pointer_pos().filter(|at| range.contains(at.x)) else { return };
+    let parameter = scene.axis.parameter(pointer.x);
+    if response.double_clicked() {
+        insert(lab, scene, round_to_step(parameter, scene.axis.per_pixel()));
+    } else if response.clicked() || response.dragged_by(PointerButton::Primary) {
+        lab.set_parameter(scene.object, parameter);
+    }
+}
+
+fn note_place(ui: &Ui, scene: &Scene, response: &Response) {
+    if let Some(pointer) = response.interact_pointer_pos() {
+        note_menu_place(ui, response, round_to_step(scene.axis.parameter(pointer.x), scene.axis.per_pixel()));
+    }
+}
+
+/// Where a menu that opens now would insert a knot.
+pub(super) fn note_menu_place(ui: &Ui, response: &Response, at: f64) {
+    if response.secondary_clicked() {
+        ui.data_mut(|data| data.insert_temp(response.id.with("menu place"), at));
+    }
+}
+
+pub(super) fn insert(lab: &mut Lab, scene: &Scene, at: f64) {
     let at = scene.curve.space().reduce(at).unwrap_or(at);
     if lab.edit(Edit::InsertKnot { object: scene.object, at }).is_some() {
         lab.selection.knot = Some(at);
     }
 }
 
-fn menu(lab: &mut Lab, ui: &Ui, scene: &Scene, response: &Response) {
+pub(super) fn menu(lab: &mut Lab, scene: &Scene, response: &Response) {
     let place = response.id.with("menu place");
-    if response.secondary_clicked()
-        && let Some(pointer) = response.interact_pointer_pos()
-    {
-        let at = round_to_step(scene.axis.parameter(pointer.x), scene.axis.per_pixel());
-        ui.data_mut(|data| data.insert_temp(place, at));
-    }
-    response.context_menu(|ui| {
+    context_menu(response, |ui| {
         let at = ui.data(|data| data.get_temp::<f64>(place)).unwrap_or(scene.t);
         let inside = scene.curve.space().reduce(at).is_ok();
         if ui

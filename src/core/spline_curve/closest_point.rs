@@ -11,17 +11,20 @@ use crate::core::bounding_tree::{BoundingBox, BoundingTree, BoundingTreeError};
 use crate::core::bspline::{MAX_DEGREE, SplineError};
 use crate::core::point::Point;
 use crate::core::rational_bezier::Projective;
-use crate::core::root_finding::{Zeros, bernstein_zeros};
+use crate::core::root_finding::{Zeros, bernstein_zeros, single_zero};
 use crate::core::spline_curve::Nurbs;
+use crate::core::spline_curve::chord::Chord;
 use crate::core::spline_curve::curve_intersection::check_tolerance;
 use crate::core::spline_curve::foot_polynomial::FootPolynomial;
-use crate::core::spline_curve::local_piece::LocalPiece;
+use crate::core::spline_curve::local_piece::{LocalPiece, dot};
 use crate::core::spline_curve::piecewise_sign::PieceSigns;
-use crate::core::triangular_scheme::collapse;
+use crate::core::triangular_scheme::collapse_both;
 
 /// The coefficients of a foot polynomial: its degree is `3n − 2` at most.
 const MAX_COEFFICIENTS: usize = 3 * MAX_DEGREE - 1;
 
+/// How often a piece is halved to separate sign changes.
+const HALVINGS: usize = 4;
 /// The place of a curve that is closest to a given point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClosestPoint<P> {
@@ -52,6 +55,7 @@ pub struct ClosestPoint<P> {
 #[derive(Clone, Debug)]
 pub struct ClosestPointTree<P> {
     pub(super) pieces: Vec<(LocalPiece<P>, FootPolynomial<P>)>,
+    chords: Vec<Chord<P>>,
     tree: BoundingTree<3>,
     pub(super) is_closed: bool,
 }
@@ -72,7 +76,7 @@ impl<P: Projective> ClosestPointTree<P> {
     /// `NonFinite` where products of coordinates overflow.
     pub fn new(curve: &Nurbs<P>) -> Result<Self, SplineError> {
         let mut pieces = Vec::new();
-        let mut boxes = Vec::new();
+        let (mut boxes, mut chords) = (Vec::new(), Vec::new());
         for (index, piece) in curve.local_pieces()?.into_iter().enumerate() {
             let overflow = SplineError::NonFinite { what: "size of piece", index, value: piece.extent };
             let foot = FootPolynomial::new(&piece);
@@ -86,6 +90,7 @@ impl<P: Projective> ClosestPointTree<P> {
                 .enumerate()
                 .map(|(j, &p)| coordinates(p * weight(j).recip() + piece.origin));
             boxes.push(BoundingBox::of_points(points).map_err(|_| overflow)?);
+            chords.push(Chord::of(&piece));
             pieces.push((piece, foot));
         }
         let tree = BoundingTree::new(&boxes).map_err(|error| match error {
@@ -94,7 +99,7 @@ impl<P: Projective> ClosestPointTree<P> {
             }
             _ => SplineError::Empty { what: "pieces" },
         })?;
-        Ok(Self { pieces, tree, is_closed: curve.space().is_periodic() })
+        Ok(Self { pieces, chords, tree, is_closed: curve.space().is_periodic() })
     }
 
     /// The point of the curve closest to `place`, of several one of them; the distance is exact up to rounding, also where the parameter is not, because the
@@ -228,52 +233,84 @@ impl<P: Projective> ClosestPointTree<P> {
     fn improve(&self, best: &mut Best, piece: usize, place: P) {
         let (local, foot) = &self.pieces[piece];
         let q = place - local.origin;
+        if self.chords[piece].is_beyond(q, best.squared) {
+            return;
+        }
         let mut consider = |at: f64| {
             let away = local.offset_at(at) - q;
-            let squared = (0..P::DIMENSION).map(|i| away.coordinate(i) * away.coordinate(i)).sum::<f64>();
+            let squared = dot(away, away);
             if squared < best.squared {
                 *best = Best { squared, piece, at };
             }
         };
+        let signs = SignChanges::of(foot.values(q));
+        if signs.count == 0 {
+            return consider(if signs.falls { 1.0 } else { 0.0 });
+        }
         let mut buffer = [0.0; MAX_COEFFICIENTS];
         let values = &mut buffer[..foot.len()];
         foot.write(q, values);
-        let (mut changes, mut place_of_change) = (0, 0);
-        for k in 1..values.len() {
-            if (values[k - 1] < 0.0) != (values[k] < 0.0) {
-                changes += 1;
-                place_of_change = k;
-            }
-        }
-        match (changes, values[0] < 0.0) {
-            // The distance grows, falls, or grows up to a largest value.
-            (0, false) => consider(0.0),
-            (0, true) => consider(1.0),
-            (1, false) => [0.0, 1.0].into_iter().for_each(consider),
-            (1, true) => consider(minimum(values, place_of_change)),
-            _ => match bernstein_zeros(values, foot.noise(q)) {
-                Zeros::Everywhere => [0.0, 1.0].into_iter().for_each(consider),
-                Zeros::Isolated(zeros) => {
-                    zeros.iter().map(|zero| zero.at).chain([0.0, 1.0]).for_each(consider);
-                }
-            },
-        }
+        minima(values, foot.noise(q), [0.0, 1.0], HALVINGS, &mut consider);
     }
 }
 
-impl<P: Point> LocalPiece<P> {
-    /// The point at `at` in `[0, 1]`, seen from the origin of the piece.
-    fn offset_at(&self, at: f64) -> P {
-        let n = self.degree();
-        let mut points = [P::ZERO; MAX_DEGREE + 1];
-        points[..=n].copy_from_slice(&self.numerators);
-        let point = collapse(&mut points[..=n], at);
-        if self.weights.is_empty() {
-            return point;
+/// The sign changes of a list of numbers; 0 counts as positive.
+struct SignChanges {
+    count: usize,
+    /// The index behind the last one.
+    last: usize,
+    /// Whether the first number is negative.
+    falls: bool,
+}
+
+impl SignChanges {
+    fn of(values: impl Iterator<Item = f64>) -> Self {
+        let mut signs = Self { count: 0, last: 0, falls: false };
+        let mut is_negative = false;
+        for (k, value) in values.enumerate() {
+            if k == 0 {
+                is_negative = value < 0.0;
+                signs.falls = is_negative;
+            } else if (value < 0.0) != is_negative {
+                is_negative = !is_negative;
+                signs.count += 1;
+                signs.last = k;
+            }
         }
-        let mut weights = [0.0; MAX_DEGREE + 1];
-        weights[..=n].copy_from_slice(&self.weights);
-        point * collapse(&mut weights[..=n], at).recip()
+        signs
+    }
+}
+
+/// Considers all places between `low` and `high` at which the distance can be smallest; `values`, overwritten, are the coefficients of its growth there. Several sign
+/// changes are separated by halving, those that `halvings` of it leave together by the zeros of the polynomial.
+fn minima(
+    values: &mut [f64],
+    noise: f64,
+    [low, high]: [f64; 2],
+    halvings: usize,
+    consider: &mut impl FnMut(f64),
+) {
+    let signs = SignChanges::of(values.iter().copied());
+    match (signs.count, signs.falls) {
+        // The distance grows, falls, or grows up to a largest value.
+        (0, false) => consider(low),
+        (0, true) => consider(high),
+        (1, false) => [low, high].into_iter().for_each(consider),
+        (1, true) => consider(low.mix(high, single_zero(values, signs.last))),
+        _ if halvings == 0 => {
+            [low, high].into_iter().for_each(&mut *consider);
+            if let Zeros::Isolated(zeros) = bernstein_zeros(values, noise) {
+                zeros.iter().for_each(|zero| consider(low.mix(high, zero.at)));
+            }
+        }
+        _ => {
+            let mut buffer = [0.0; MAX_COEFFICIENTS];
+            let left = &mut buffer[..values.len()];
+            collapse_both(values, 0.5, left);
+            let middle = 0.5 * (low + high);
+            minima(left, noise, [low, middle], halvings - 1, consider);
+            minima(values, noise, [middle, high], halvings - 1, consider);
+        }
     }
 }
 
@@ -300,43 +337,6 @@ impl<P: Projective> Nurbs<P> {
 /// The coordinates, with zeros up to the third.
 fn coordinates<P: Point>(point: P) -> [f64; 3] {
     [0, 1, 2].map(|i| if i < P::DIMENSION { point.coordinate(i) } else { 0.0 })
-}
-
-/// The zero of a polynomial whose coefficients are negative before index `k` and not from there on: Newton's method in a bracket, from where the
-/// control polygon is 0.
-fn minimum(c: &[f64], k: usize) -> f64 {
-    let n = c.len() - 1;
-    let (mut low, mut high) = (0.0, 1.0);
-    let mut t = ((k - 1) as f64 + c[k - 1] / (c[k - 1] - c[k])) / n as f64;
-    let mut buffer = [0.0; MAX_COEFFICIENTS];
-    // Halving alone takes 53 steps to the last digit.
-    for _ in 0..60 {
-        let scratch = &mut buffer[..=n];
-        scratch.copy_from_slice(c);
-        for count in (2..=n).rev() {
-            for j in 0..count {
-                scratch[j] = scratch[j].mix(scratch[j + 1], t);
-            }
-        }
-        let slope = n as f64 * (scratch[1.min(n)] - scratch[0]);
-        let value = scratch[0].mix(scratch[1.min(n)], t);
-        if value == 0.0 {
-            break;
-        }
-        if value < 0.0 {
-            low = t;
-        } else {
-            high = t;
-        }
-        let newton = t - value / slope;
-        let next = if low < newton && newton < high { newton } else { 0.5 * (low + high) };
-        let step = (next - t).abs();
-        t = next;
-        if step <= 2.0 * f64::EPSILON || high - low <= f64::EPSILON {
-            break;
-        }
-    }
-    t
 }
 
 #[cfg(test)]

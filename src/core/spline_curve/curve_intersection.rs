@@ -1,14 +1,14 @@
 //! Where two plane curves meet.
 //!
-//! Both curves in Bezier form; pairs of pieces with boxes that overlap are found by a sweep from left to right, and each pair is handled as in
-//! [`RationalBezier::intersections`]. A meeting at a knot is found in several pairs and counts once; common parts that go on behind a knot become
-//! one. Course: beyond, section B.6; T. Sederberg, T. Nishita, *Curve intersection using Bézier clipping*, 1990, for the idea of strips.
+//! The pairs of Bezier pieces that come near each other are looked at one by one, see [`IntersectionTree`]. A meeting at a knot is found in several pairs and
+//! counts once; common parts that go on behind a knot become one. Course: beyond, section B.6; T. Sederberg, T. Nishita, *Curve intersection using Bézier
+//! clipping*, 1990, for the idea of strips.
 
 use glam::DVec2;
 
 use crate::core::bspline::SplineError;
-use crate::core::rational_bezier::{Contact, RationalBezier, RationalBezierError};
-use crate::core::spline_curve::Nurbs;
+use crate::core::rational_bezier::{Contact, RationalBezierError};
+use crate::core::spline_curve::{IntersectionTree, Nurbs};
 
 /// Parameters closer than this part of the parameter interval belong to one meeting if its points agree.
 const SAME: f64 = 1e-4;
@@ -55,34 +55,9 @@ pub struct CurveIntersection {
     pub meeting: Meeting,
 }
 
-/// A Bezier piece with its box.
-pub(super) struct BoxedPiece {
-    pub(super) curve: RationalBezier<DVec2>,
-    pub(super) low: DVec2,
-    pub(super) high: DVec2,
-}
-
-impl BoxedPiece {
-    pub(super) fn new(curve: RationalBezier<DVec2>) -> Self {
-        let points = || curve.points().iter().copied();
-        let (low, high) =
-            (points().fold(DVec2::INFINITY, DVec2::min), points().fold(DVec2::NEG_INFINITY, DVec2::max));
-        Self { curve, low, high }
-    }
-
-    /// The longer side of the box.
-    pub(super) fn size(&self) -> f64 {
-        (self.high - self.low).max_element()
-    }
-
-    pub(super) fn is_near(&self, other: &Self, gap: f64) -> bool {
-        (self.low - other.high).max_element() <= gap && (other.low - self.high).max_element() <= gap
-    }
-}
-
 impl Nurbs<DVec2> {
     /// All common points with `other`, sorted by the parameter of this curve; what is within `tolerance` counts as common. Closed curves are taken over one
-    /// period.
+    /// period. For many questions prepare [`IntersectionTree`]s.
     ///
     /// ```
     /// use glam::DVec2;
@@ -100,25 +75,9 @@ impl Nurbs<DVec2> {
     /// `InvalidTolerance`; `StepLimit` where a pair of pieces needs too many halvings; `NonFinite` or `WeightNotPositive` where a Bezier form leaves the range of
     /// numbers.
     pub fn intersections(&self, other: &Self, tolerance: f64) -> Result<Vec<CurveIntersection>, SplineError> {
-        check_tolerance(tolerance)?;
-        let (mine, theirs) = (boxed_pieces(self)?, boxed_pieces(other)?);
-        let mut found = Vec::new();
-        for (i, j) in overlapping_pairs(&mine, &theirs, tolerance) {
-            let hits = mine[i].curve.intersections(&theirs[j].curve, tolerance).map_err(as_spline_error)?;
-            found.extend(hits.into_iter().map(|hit| CurveIntersection {
-                parameters: hit.parameters,
-                point: hit.point,
-                meeting: hit.contact.into(),
-            }));
-        }
-        Ok(Merge { curves: [self, other], tolerance }.merged(found))
+        let [one, two] = [self, other].map(IntersectionTree::of_whole_pieces);
+        one?.intersections(&two?, tolerance)
     }
-}
-
-/// The pieces with their boxes.
-pub(super) fn boxed_pieces(curve: &Nurbs<DVec2>) -> Result<Vec<BoxedPiece>, SplineError> {
-    let pieces = curve.rational_bezier_curves().map_err(as_spline_error)?;
-    Ok(pieces.into_iter().map(BoxedPiece::new).collect())
 }
 
 pub(super) fn check_tolerance(tolerance: f64) -> Result<(), SplineError> {
@@ -144,48 +103,6 @@ pub(super) fn as_spline_error(error: RationalBezierError) -> SplineError {
         }
         other => SplineError::NoSolution { reason: other.to_string() },
     }
-}
-
-/// Indices of the pieces of both lists whose boxes are not further apart than `gap`.
-pub(super) fn overlapping_pairs(mine: &[BoxedPiece], theirs: &[BoxedPiece], gap: f64) -> Vec<(usize, usize)> {
-    let order = |pieces: &[BoxedPiece]| {
-        let mut order: Vec<usize> = (0..pieces.len()).collect();
-        order.sort_by(|&a, &b| pieces[a].low.x.total_cmp(&pieces[b].low.x));
-        order
-    };
-    let (first, second) = (order(mine), order(theirs));
-    let mut pairs = Vec::new();
-    // Those that the sweep line meets, from either list.
-    let (mut open_mine, mut open_theirs): (Vec<usize>, Vec<usize>) = (Vec::new(), Vec::new());
-    let (mut i, mut j) = (0, 0);
-    while i < first.len() || j < second.len() {
-        let takes_mine =
-            j == second.len() || (i < first.len() && mine[first[i]].low.x <= theirs[second[j]].low.x);
-        if takes_mine {
-            let new = first[i];
-            i += 1;
-            open_theirs.retain(|&other| theirs[other].high.x + gap >= mine[new].low.x);
-            pairs.extend(
-                open_theirs
-                    .iter()
-                    .filter(|&&other| mine[new].is_near(&theirs[other], gap))
-                    .map(|&other| (new, other)),
-            );
-            open_mine.push(new);
-        } else {
-            let new = second[j];
-            j += 1;
-            open_mine.retain(|&other| mine[other].high.x + gap >= theirs[new].low.x);
-            pairs.extend(
-                open_mine
-                    .iter()
-                    .filter(|&&other| mine[other].is_near(&theirs[new], gap))
-                    .map(|&other| (other, new)),
-            );
-            open_theirs.push(new);
-        }
-    }
-    pairs
 }
 
 /// What makes one list of the meetings of all pairs.
@@ -324,16 +241,6 @@ mod tests {
             }
             let swapped = other.intersections(&one, 1e-9).unwrap();
             prop_assert_eq!(swapped.len(), found.len(), "{:?} and {:?}", found, swapped);
-        }
-
-        #[test]
-        fn the_sweep_finds_the_pairs_of_boxes(one in any_curve(2..=3), other in any_curve(2..=3)) {
-            let (mine, theirs) = (boxed_pieces(&one).unwrap(), boxed_pieces(&other).unwrap());
-            let mut found = overlapping_pairs(&mine, &theirs, 1e-9);
-            found.sort_unstable();
-            let all = (0..mine.len()).flat_map(|i| (0..theirs.len()).map(move |j| (i, j)));
-            let slow: Vec<_> = all.filter(|&(i, j)| mine[i].is_near(&theirs[j], 1e-9)).collect();
-            prop_assert_eq!(found, slow);
         }
     }
 

@@ -1,17 +1,14 @@
 //! Degree reduction of splines, with the certified deviation.
 //!
 //! The space of degree `n − 1` has the same breaks with multiplicities one lower, at least 1, and end-interpolating knots. The new
-//! spline is the best one in the mean-square sense, with its ends kept or free: least squares at `n + 1` Gauss points of every interval,
-//! solved by orthogonal transformations of the rows, since the normal equations would square the condition. The unknowns of a closed
-//! spline are taken in the order `0, M − 1, 1, M − 2, …`, which turns its cyclic matrix into one with a band. An elevated spline comes back.
+//! spline is the best one in the mean-square sense, with its ends kept or free. An elevated spline comes back.
 //! Course: beyond, section B.1.
 
 use crate::core::bspline::{Spline, SplineError, SplineSpace};
-use crate::core::linear_system::{BandError, BandLeastSquares};
 use crate::core::point::Point;
-use crate::core::quadrature::gauss_legendre;
 use crate::core::rational_bezier::Projective;
 use crate::core::spline_curve::degree::clamped_space;
+use crate::core::spline_curve::nearest_spline::nearest_spline;
 use crate::core::spline_curve::{Deviation, Nurbs, deviation};
 
 /// What happens to the ends of an open spline whose degree is reduced.
@@ -64,37 +61,7 @@ impl<P: Point> Spline<P> {
                 SplineSpace::periodic(n - 1, period, distinct.iter().flat_map(copies).collect())?
             }
         };
-        let unknowns = Unknowns::new(&space, ends);
-        let (left, right) = self.space().parameter_interval();
-        let (start, stop) = (self.evaluate(left)?, self.evaluate(right)?);
-        let fixed = |k: usize| if k == 0 { start } else { stop };
-        let width = unknowns.width();
-        let mut system = BandLeastSquares::new(unknowns.count(), width);
-        let rule =
-            gauss_legendre(n + 1).map_err(|error| SplineError::NoSolution { reason: error.to_string() })?;
-        let mut intervals = intervals(&space, &unknowns)?;
-        intervals.sort_by_key(|interval| interval.first);
-        let (mut values, mut row) = (vec![0.0; n], vec![0.0; width]);
-        for interval in intervals {
-            let (a, b) = interval.ends;
-            for (&node, &weight) in rule.nodes().iter().zip(rule.weights()) {
-                let (x, root) = (a.mix(b, node), (weight * (b - a)).sqrt());
-                let first = space.write_active_basis(x, &mut values)?;
-                let mut value = self.evaluate(x)?;
-                row.fill(0.0);
-                for (j, &basis) in values.iter().enumerate() {
-                    let k = space.coefficient_index(first + j);
-                    match unknowns.place(k) {
-                        Some(place) => row[place - interval.first] += basis * root,
-                        None => value = value - fixed(k) * basis,
-                    }
-                }
-                system.add(interval.first, &mut row, value * root).map_err(no_solution)?;
-            }
-        }
-        let solution = system.solve().map_err(no_solution)?;
-        let coefficient = |k: usize| unknowns.place(k).map_or_else(|| fixed(k), |place| solution[place]);
-        Self::new(space.clone(), (0..space.dimension()).map(coefficient).collect())
+        nearest_spline(self, space, [ends == ReductionEnds::Fixed; 2])
     }
 
     /// The spline of degree `n − 1` that this one is, up to `tolerance` at equal parameters.
@@ -156,70 +123,6 @@ impl<P: Projective> Nurbs<P> {
     }
 }
 
-/// Which coefficients are unknown, and where they stand in the system.
-enum Unknowns {
-    /// All but the first and the last `fixed`.
-    Open { count: usize, fixed: usize, degree: usize },
-    /// All, folded.
-    Closed { count: usize, degree: usize },
-}
-
-impl Unknowns {
-    fn new(space: &SplineSpace, ends: ReductionEnds) -> Self {
-        let (count, degree) = (space.dimension(), space.degree());
-        if space.is_periodic() {
-            return Self::Closed { count, degree };
-        }
-        Self::Open { count, fixed: usize::from(ends == ReductionEnds::Fixed), degree }
-    }
-
-    fn count(&self) -> usize {
-        match self {
-            Self::Open { count, fixed, .. } => count - 2 * fixed,
-            Self::Closed { count, .. } => *count,
-        }
-    }
-
-    /// Consecutive unknowns that an equation can hold.
-    fn width(&self) -> usize {
-        match self {
-            Self::Open { degree, .. } => (degree + 1).min(self.count()),
-            Self::Closed { count, degree } => (2 * degree + 2).min(*count),
-        }
-    }
-
-    /// The place of coefficient `k`; `None` if it is fixed.
-    fn place(&self, k: usize) -> Option<usize> {
-        match self {
-            Self::Open { count, fixed, .. } => (k >= *fixed && k + fixed < *count).then(|| k - fixed),
-            Self::Closed { count, .. } => {
-                Some(if k < count.div_ceil(2) { 2 * k } else { 2 * (count - 1 - k) + 1 })
-            }
-        }
-    }
-}
-
-/// A knot interval and the first unknown of its equations.
-struct Interval {
-    ends: (f64, f64),
-    first: usize,
-}
-
-fn intervals(space: &SplineSpace, unknowns: &Unknowns) -> Result<Vec<Interval>, SplineError> {
-    let most = unknowns.count() - unknowns.width();
-    let interval = |ends: &[f64]| {
-        let span = space.span(ends[0])?;
-        let active =
-            (span - space.degree()..=span).filter_map(|k| unknowns.place(space.coefficient_index(k)));
-        Ok(Interval { ends: (ends[0], ends[1]), first: active.min().unwrap_or(0).min(most) })
-    };
-    space.breaks().windows(2).map(interval).collect()
-}
-
-fn no_solution(error: BandError) -> SplineError {
-    SplineError::NoSolution { reason: error.to_string() }
-}
-
 fn check_tolerance(tolerance: f64) -> Result<(), SplineError> {
     if tolerance > 0.0 { Ok(()) } else { Err(SplineError::InvalidTolerance { value: tolerance }) }
 }
@@ -229,6 +132,7 @@ mod tests {
     use glam::DVec2;
 
     use super::*;
+    use crate::core::quadrature::gauss_legendre;
     use crate::core::spline_curve::samples::{any_curve, any_spline, distance};
     use proptest::prelude::*;
 

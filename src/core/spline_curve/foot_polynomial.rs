@@ -42,11 +42,14 @@ impl<P: Point> FootPolynomial<P> {
         self.coefficients.len()
     }
 
-    /// Writes the coefficients for `q`, seen from the origin of the piece.
+    /// The coefficients for `q`, seen from the origin of the piece.
+    pub(super) fn values(&self, q: P) -> impl Iterator<Item = f64> + '_ {
+        self.coefficients.iter().map(move |&(a, b)| a - dot(b, q))
+    }
+
+    /// Writes the coefficients for `q`.
     pub(super) fn write(&self, q: P, values: &mut [f64]) {
-        for (value, (a, b)) in values.iter_mut().zip(&self.coefficients) {
-            *value = a - dot(*b, q);
-        }
+        values.iter_mut().zip(self.values(q)).for_each(|(value, at_q)| *value = at_q);
     }
 
     /// An estimate from above of the errors of the coefficients for `q`.

@@ -73,7 +73,8 @@ mod tests {
             let samples: Vec<(f64, f64)> = (0..=400)
                 .map(|i| a.mix(b, f64::from(i) / 400.0))
                 .filter_map(|t| Some((t, curve.curvature(t, Side::Right).ok()?)))
-                .filter(|(_, curvature)| curvature.abs() > 1e-6)
+                // Where the curve all but stands still, rounding decides.
+                .filter(|(_, curvature)| (1e-6..1e9).contains(&curvature.abs()))
                 .collect();
             for pair in samples.windows(2) {
                 // The seam of a closed curve is told at its start.

@@ -3,16 +3,19 @@
 //! Of a Bezier piece with homogeneous control points `(wⱼ Pⱼ, wⱼ)` the numbers `wⱼ (a·Pⱼ − c)` are the Bernstein coefficients of a polynomial with the same
 //! zeros; an even multiplicity is a contact. Zeros at knots are found in both pieces and count once. Course: beyond, section B.6.
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
-use crate::core::bspline::SplineError;
+use crate::core::bspline::{MAX_DEGREE, SplineError};
 use crate::core::point::Point as _;
-use crate::core::root_finding::{Zeros, bernstein_zeros};
-use crate::core::spline_curve::Nurbs;
-use crate::core::spline_curve::curve_intersection::{Meeting, check_tolerance};
+use crate::core::root_finding::{Zeros, bernstein_zeros, single_sign_change, single_zero};
+use crate::core::spline_curve::curve_intersection::check_tolerance;
+use crate::core::spline_curve::local_piece::LocalPiece;
+use crate::core::spline_curve::{IntersectionTree, Meeting, Nurbs};
 
 /// Parameters closer than this part of D are one.
 const SAME: f64 = 1e-9;
+/// Rounding errors of heights over a line, in units of the size of a piece.
+const NOISE: f64 = 64.0 * f64::EPSILON;
 
 /// A place where a curve meets a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,97 +52,142 @@ impl Nurbs<DVec2> {
         offset: f64,
         tolerance: f64,
     ) -> Result<Vec<LineIntersection>, SplineError> {
+        let line = Line::new(normal, offset, tolerance)?;
+        let pieces = self.local_pieces()?;
+        Ok(line.settled(self, line.meetings(same(self), pieces.iter())))
+    }
+}
+
+impl IntersectionTree {
+    /// All common points with the line `normal·x = offset`, see [`Nurbs::intersect_line`].
+    ///
+    /// # Errors
+    ///
+    /// As there.
+    pub fn intersect_line(
+        &self,
+        normal: DVec2,
+        offset: f64,
+        tolerance: f64,
+    ) -> Result<Vec<LineIntersection>, SplineError> {
+        let line = Line::new(normal, offset, tolerance)?;
+        let mut near = Vec::with_capacity(16);
+        self.tree.near_plane(line.normal.to_array(), line.offset, tolerance, |piece| near.push(piece));
+        near.sort_unstable();
+        let pieces = near.iter().map(|&piece| &self.pieces[piece].local);
+        Ok(line.settled(&self.curve, line.meetings(same(&self.curve), pieces)))
+    }
+}
+
+/// The distance of parameters below which they are one.
+fn same(curve: &Nurbs<DVec2>) -> f64 {
+    let (a, b) = curve.space().parameter_interval();
+    SAME * (b - a)
+}
+
+/// The line `normal·x = offset` with a unit normal.
+struct Line {
+    normal: DVec2,
+    offset: f64,
+    tolerance: f64,
+}
+
+/// A meeting, and whether it is so near to an end of its piece that a neighbour may know it too.
+type Found = (LineIntersection, bool);
+
+impl Line {
+    fn new(normal: DVec2, offset: f64, tolerance: f64) -> Result<Self, SplineError> {
         check_tolerance(tolerance)?;
         let length = normal.length();
         if !(length.is_finite() && length > 0.0) {
-            return Err(SplineError::Degenerate {
-                what: "a line whose normal has the length",
-                parameter: length,
-            });
+            let what = "a line whose normal has the length";
+            return Err(SplineError::Degenerate { what, parameter: length });
         }
         if !offset.is_finite() {
             return Err(SplineError::NonFinite { what: "offset", index: 0, value: offset });
         }
-        let (normal, offset) = (normal / length, offset / length);
-        let mut found: Vec<LineIntersection> = Vec::new();
-        let pieces = self.homogeneous().bezier_pieces();
-        let mut values = Vec::with_capacity(self.degree() + 1);
-        for ((a, b), points) in pieces.iter() {
+        Ok(Self { normal: normal / length, offset: offset / length, tolerance })
+    }
+
+    /// What the line has in common with each piece, left to right; parameters closer than `same` are one.
+    fn meetings<'a>(&self, same: f64, pieces: impl Iterator<Item = &'a LocalPiece<DVec2>>) -> Vec<Found> {
+        let tolerance = self.tolerance;
+        let mut found: Vec<Found> = Vec::with_capacity(16);
+        let mut buffer = [0.0; MAX_DEGREE + 1];
+        for piece in pieces {
+            let values = &mut buffer[..=piece.degree()];
             // In units of the largest weight, so that values near 0 are lengths no larger than the distance.
-            let largest = points.iter().fold(0.0, |largest: f64, point| largest.max(point.z));
-            let value = |point: &DVec3| (normal.dot(point.truncate()) - offset * point.z) / largest;
-            values.clear();
-            values.extend(points.iter().map(value));
+            let (scale, height) =
+                (piece.largest_weight().recip(), self.normal.dot(piece.origin) - self.offset);
+            for (j, value) in values.iter_mut().enumerate() {
+                let weight = piece.weights.get(j).copied().unwrap_or(1.0);
+                *value = (self.normal.dot(piece.numerators[j]) + height * weight) * scale;
+            }
             if values.iter().all(|&value| value > tolerance) || values.iter().all(|&value| value < -tolerance)
             {
                 continue;
             }
-            match bernstein_zeros(&values, tolerance) {
-                Zeros::Everywhere => {
-                    let ends = [a, b];
-                    let meeting = Meeting::Overlap { first: ends, second: ends };
-                    let start = LineIntersection { parameter: a, point: self.evaluate(a)?, meeting };
-                    match found.last_mut().map(|last| &mut last.meeting) {
-                        Some(Meeting::Overlap { first, second }) if first[1] >= a => {
-                            (first[1], second[1]) = (b, b);
-                        }
-                        _ => found.push(start),
+            let (a, b) = piece.interval;
+            let meet = |at: f64, meeting: Meeting| {
+                let point = piece.origin + piece.offset_at(at);
+                let is_at_joint = at.min(1.0 - at) * (b - a) <= 2.0 * same;
+                (LineIntersection { parameter: a.mix(b, at), point, meeting }, is_at_joint)
+            };
+            if let Some(k) = single_sign_change(values, tolerance.max(NOISE * piece.extent)) {
+                found.push(meet(single_zero(values, k), Meeting::Crossing));
+                continue;
+            }
+            match bernstein_zeros(values, tolerance) {
+                Zeros::Everywhere => match found.last_mut().map(|last| &mut last.0.meeting) {
+                    Some(Meeting::Overlap { first, second }) if first[1] >= a => {
+                        (first[1], second[1]) = (b, b);
                     }
-                }
-                Zeros::Isolated(zeros) => {
-                    for zero in zeros {
-                        let parameter = a.mix(b, zero.at);
-                        let meeting =
-                            if zero.multiplicity % 2 == 1 { Meeting::Crossing } else { Meeting::Tangent };
-                        found.push(LineIntersection { parameter, point: self.evaluate(parameter)?, meeting });
-                    }
-                }
+                    _ => found.push(meet(0.0, Meeting::Overlap { first: [a, b], second: [a, b] })),
+                },
+                Zeros::Isolated(zeros) => found.extend(zeros.iter().map(|zero| {
+                    let is_odd = zero.multiplicity % 2 == 1;
+                    meet(zero.at, if is_odd { Meeting::Crossing } else { Meeting::Tangent })
+                })),
             }
         }
-        Ok(self.settled(found, normal, offset, tolerance))
+        found
     }
 
     /// Each meeting once; what it is at a knot is decided by both sides.
-    fn settled(
-        &self,
-        mut found: Vec<LineIntersection>,
-        normal: DVec2,
-        offset: f64,
-        tolerance: f64,
-    ) -> Vec<LineIntersection> {
-        let (start, end) = self.space().parameter_interval();
-        let (same, closed) = (SAME * (end - start), self.space().is_periodic());
-        let is_part = |hit: &LineIntersection| matches!(hit.meeting, Meeting::Overlap { .. });
-        let parts: Vec<[f64; 2]> = found
-            .iter()
-            .filter_map(|hit| match hit.meeting {
-                Meeting::Overlap { first, .. } => Some(first),
-                _ => None,
-            })
-            .collect();
-        found.retain(|hit| {
-            is_part(hit)
-                || !parts
-                    .iter()
-                    .any(|part| part[0] - same <= hit.parameter && hit.parameter <= part[1] + same)
+    fn settled(&self, curve: &Nurbs<DVec2>, mut found: Vec<Found>) -> Vec<LineIntersection> {
+        let (start, end) = curve.space().parameter_interval();
+        let (same, closed) = (same(curve), curve.space().is_periodic());
+        let part = |hit: &LineIntersection| match hit.meeting {
+            Meeting::Overlap { first, .. } => Some(first),
+            _ => None,
+        };
+        let parts: Vec<[f64; 2]> = found.iter().filter_map(|(hit, _)| part(hit)).collect();
+        let is_part = |hit: &LineIntersection| part(hit).is_some();
+        found.retain(|(hit, _)| {
+            let in_part =
+                |part: &[f64; 2]| part[0] - same <= hit.parameter && hit.parameter <= part[1] + same;
+            is_part(hit) || !parts.iter().any(in_part)
         });
-        found.dedup_by(|next, kept| {
+        found.dedup_by(|(next, _), (kept, _)| {
             !is_part(next) && !is_part(kept) && next.parameter - kept.parameter <= same
         });
         if closed && found.len() > 1 {
-            let (first, last) = (found[0], found[found.len() - 1]);
+            let (first, last) = (found[0].0, found[found.len() - 1].0);
             let seam = first.parameter - start <= same && end - last.parameter <= same;
             if seam && !is_part(&first) && !is_part(&last) {
                 found.pop();
             }
         }
-        let breaks = self.space().breaks();
-        let side = |t: f64| self.evaluate(t).map_or(0.0, |point| normal.dot(point) - offset);
-        for hit in found.iter_mut().filter(|hit| !is_part(hit)) {
+        let mut breaks = Vec::new();
+        let side = |t: f64| curve.evaluate(t).map_or(0.0, |point| self.normal.dot(point) - self.offset);
+        for (hit, _) in found.iter_mut().filter(|(hit, is_at_joint)| *is_at_joint && !is_part(hit)) {
             let t = hit.parameter;
             if !closed && (t - start <= same || end - t <= same) {
                 hit.meeting = Meeting::EndPoint;
                 continue;
+            }
+            if breaks.is_empty() {
+                breaks = curve.space().breaks();
             }
             if !breaks.iter().any(|knot| (t - knot).abs() <= same) {
                 continue;
@@ -150,14 +198,14 @@ impl Nurbs<DVec2> {
                 let most = ahead.fold(end - start, f64::min) * 0.5;
                 (1..40)
                     .map(|k| side(t + direction * most * 0.5_f64.powi(40 - k)))
-                    .find(|s| s.abs() > tolerance)
+                    .find(|s| s.abs() > self.tolerance)
             };
             hit.meeting = match (reach(-1.0), reach(1.0)) {
                 (Some(left), Some(right)) if left * right > 0.0 => Meeting::Tangent,
                 _ => Meeting::Crossing,
             };
         }
-        found
+        found.into_iter().map(|(hit, _)| hit).collect()
     }
 }
 

@@ -4,11 +4,15 @@
 //! `r = o + P/w` the tangent has the direction of `w P′ − w′ P = n Σ (w⁰ P¹ − w¹ P⁰)`, of degree `2n − 2`, where the upper indices 0 and 1 mean the first and the
 //! last `n` coefficients: `r′ = (w P′ − w′ P)/w²`. Derivatives are by the parameter of the piece in `[0, 1]`.
 
-use crate::core::bspline::SplineError;
+use crate::core::bspline::{MAX_DEGREE, SplineError};
 use crate::core::point::Point;
 use crate::core::polynomial::product_by;
 use crate::core::rational_bezier::Projective;
 use crate::core::spline_curve::Nurbs;
+use crate::core::triangular_scheme::collapse;
+
+/// Pieces up to this degree are evaluated on a small stack.
+const SMALL_DEGREE: usize = 3;
 
 /// A Bezier piece about `origin`.
 #[derive(Clone, Debug)]
@@ -54,7 +58,8 @@ impl<P: Projective> Nurbs<P> {
 }
 
 impl<P: Point> LocalPiece<P> {
-    fn new(interval: (f64, f64), points: &[P], mut weights: Vec<f64>) -> Self {
+    /// From control points and weights, none if all are equal.
+    pub(super) fn new(interval: (f64, f64), points: &[P], mut weights: Vec<f64>) -> Self {
         let n = points.len() - 1;
         let origin = points[0].mix(points[n], 0.5);
         let largest = weights.iter().copied().fold(0.0, f64::max);
@@ -68,6 +73,58 @@ impl<P: Point> LocalPiece<P> {
         let numerators = points.iter().enumerate().map(|(j, c)| away(c) * weight(j)).collect();
         let error = 4.0 * (n + 1) as f64 * f64::EPSILON * (origin.norm() + extent);
         Self { interval, origin, numerators, weights, extent, error }
+    }
+
+    /// The point at `at` in `[0, 1]`, seen from the origin of the piece.
+    pub(super) fn offset_at(&self, at: f64) -> P {
+        // The ends are asked for most often.
+        if at == 0.0 || at == 1.0 {
+            let end = if at == 0.0 { 0 } else { self.degree() };
+            return self.numerators[end] * self.weights.get(end).map_or(1.0, |w| w.recip());
+        }
+        if self.degree() <= SMALL_DEGREE {
+            self.offset_in::<{ SMALL_DEGREE + 1 }>(at)
+        } else {
+            self.offset_in::<{ MAX_DEGREE + 1 }>(at)
+        }
+    }
+
+    /// The same with place for `N` points.
+    fn offset_in<const N: usize>(&self, at: f64) -> P {
+        let n = self.degree();
+        let mut points = [P::ZERO; N];
+        points[..=n].copy_from_slice(&self.numerators);
+        let point = collapse(&mut points[..=n], at);
+        if self.weights.is_empty() {
+            return point;
+        }
+        let mut weights = [0.0; N];
+        weights[..=n].copy_from_slice(&self.weights);
+        point * collapse(&mut weights[..=n], at).recip()
+    }
+
+    /// The point at `at`, seen from the origin of the piece, and the derivative by `at`.
+    pub(super) fn offset_and_velocity(&self, at: f64) -> (P, P) {
+        if self.degree() <= SMALL_DEGREE {
+            self.velocity_in::<{ SMALL_DEGREE + 1 }>(at)
+        } else {
+            self.velocity_in::<{ MAX_DEGREE + 1 }>(at)
+        }
+    }
+
+    fn velocity_in<const N: usize>(&self, at: f64) -> (P, P) {
+        let n = self.degree();
+        let mut points = [P::ZERO; N];
+        let [p, q] = last_two(&self.numerators, &mut points, at);
+        let (point, velocity) = (p.mix(q, at), (q - p) * n as f64);
+        if self.weights.is_empty() {
+            return (point, velocity);
+        }
+        let mut weights = [0.0; N];
+        let [v, w] = last_two(&self.weights, &mut weights, at);
+        let (weight, growth) = (v.mix(w, at), (w - v) * n as f64);
+        let offset = point * weight.recip();
+        (offset, (velocity - offset * growth) * weight.recip())
     }
 
     pub(super) fn degree(&self) -> usize {
@@ -98,6 +155,19 @@ impl<P: Point> LocalPiece<P> {
     }
 }
 
+/// The last two points of de Casteljau's scheme before the apex; the same point twice if there is only one.
+fn last_two<P: Point>(points: &[P], scratch: &mut [P], at: f64) -> [P; 2] {
+    let n = points.len() - 1;
+    let scratch = &mut scratch[..=n];
+    scratch.copy_from_slice(points);
+    for count in (2..=n).rev() {
+        for j in 0..count {
+            scratch[j] = scratch[j].mix(scratch[j + 1], at);
+        }
+    }
+    [scratch[0], scratch[n.min(1)]]
+}
+
 /// The largest length of a list of points.
 pub(super) fn largest<P: Point>(points: &[P]) -> f64 {
     points.iter().map(|p| p.norm()).fold(0.0, f64::max)
@@ -115,7 +185,6 @@ mod tests {
     use super::*;
     use crate::core::bspline::Side;
     use crate::core::spline_curve::samples::any_curve;
-    use crate::core::triangular_scheme::collapse;
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(48))]
@@ -129,6 +198,9 @@ mod tests {
                 let side = if t > 0.5 { Side::Left } else { Side::Right };
                 let exact = curve.derivatives(a.mix(b, t), 1, side).unwrap();
                 prop_assert!(point.distance(exact[0]) < 1e-11 * (1.0 + piece.extent), "{point}: {exact:?}");
+                let (offset, growth) = piece.offset_and_velocity(t);
+                prop_assert!(offset.distance(point - piece.origin) < 1e-11 * (1.0 + piece.extent), "{offset}");
+                prop_assert!((growth / (b - a)).distance(exact[1]) < 1e-9 * (1.0 + exact[1].length()), "{growth}: {exact:?}");
                 let velocity = collapse(&mut piece.direction(), t) / (weight * weight) / (b - a);
                 prop_assert!(velocity.distance(exact[1]) < 1e-9 * (1.0 + exact[1].length()), "{velocity}: {exact:?}");
             }

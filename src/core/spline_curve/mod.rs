@@ -20,21 +20,25 @@
 //! | `blossom` | 6.4 blossoms and the labels of control points |
 //! | `degree`, `degree_reduction`, `uniform_reduction` | degree elevation and reduction |
 //! | `knot_removal`, `removal_within` | the nearest curve with one knot less, and with as few knots as a tolerance allows |
+//! | `nearest_spline` | the nearest curve over other knots |
+//! | `knot_rule` | knots from the control points: uniform, end-interpolating, chord length, centripetal, averaged |
 //! | `deviation`, `hausdorff` | certified distance at equal parameters, sampled distance of two point sets |
 //! | `line_intersection`, `curve_intersection`, `self_intersection` | B.6 where a curve meets a line, another curve, itself |
+//! | `intersection_tree`, `plane_piece` | B.6 curves prepared for intersections, and the one crossing of two pieces |
 //! | `arc_length` | B.4 arc length and its inverse |
 //! | `chord_polygon` | B.8 points whose polygon is within a tolerance |
 //! | `closest_point`, `foot_points` | B.5 the points of a curve closest to a given point, and all foot points |
 //! | `curvature` | frames, signed curvature and its derivative, osculating circles, torsion |
 //! | `inflections`, `vertices`, `curvature_polynomial` | B.7 where curvature changes sign, where it is extreme, and the polynomials behind |
 //! | `tight_box` | B.7 the smallest box, extreme points |
-//! | `local_piece`, `foot_polynomial`, `piecewise_sign` | B.5, B.7 what closest points and features are made of |
+//! | `local_piece`, `foot_polynomial`, `chord`, `piecewise_sign` | B.5, B.7 what closest points and features are made of |
 
 mod arc_length;
 mod batch;
 mod bezier_conversion;
 mod bezier_form;
 mod blossom;
+mod chord;
 mod chord_polygon;
 mod closest_point;
 mod curvature;
@@ -57,14 +61,18 @@ mod hyperplane;
 mod hyperplane_intersection;
 mod inflections;
 mod insertion_scheme;
+mod intersection_tree;
 mod join;
 mod knot_insertion;
 mod knot_removal;
+mod knot_rule;
 mod least_norm_move;
 mod line_intersection;
 mod local_piece;
+mod nearest_spline;
 mod nurbs;
 mod piecewise_sign;
+mod plane_piece;
 mod refinement_matrix;
 mod removal_within;
 #[cfg(test)]
@@ -99,7 +107,9 @@ pub use hyperplane::{Hyperplane, variation};
 pub use hyperplane_intersection::{HyperplaneIntersection, IntersectionKind};
 pub use inflections::CurveInflections;
 pub use insertion_scheme::InsertionScheme;
+pub use intersection_tree::IntersectionTree;
 pub use knot_removal::{KnotRemoval, NurbsKnotRemoval};
+pub use knot_rule::KnotRule;
 pub use line_intersection::LineIntersection;
 pub use nurbs::Nurbs;
 pub use refinement_matrix::refinement_matrix;

@@ -8,16 +8,19 @@ use std::f64::consts::{PI, TAU};
 use glam::DVec2;
 
 use crate::core::bspline::SplineError;
+use crate::core::point::Point as _;
 use crate::core::rational_bezier::RationalBezier;
-use crate::core::spline_curve::Nurbs;
-use crate::core::spline_curve::curve_intersection::{
-    BoxedPiece, CurveIntersection, Merge, as_spline_error, boxed_pieces, check_tolerance, overlapping_pairs,
-};
+use crate::core::spline_curve::curve_intersection::{Merge, check_tolerance};
+use crate::core::spline_curve::intersection_tree::{HALVINGS, meet};
+use crate::core::spline_curve::plane_piece::gentle_parts;
+use crate::core::spline_curve::{CurveIntersection, IntersectionTree, Meeting, Nurbs};
 
 /// Half opening of the cone of a part, in radians.
 const OPENING: f64 = 0.7;
-/// Halvings of one piece after which it is taken as it is: at a cusp.
-const MAX_DEPTH: usize = 40;
+/// Reach of a cusp in units of `ε^(2/3)·size^(1/3)`.
+const CUSP: f64 = 8.0;
+/// Points at which a part of the curve is looked at.
+const SAMPLES: u32 = 16;
 /// Meetings of neighbours closer to their common end than this part of them are that end.
 const COMMON_END: f64 = 1e-3;
 
@@ -31,48 +34,54 @@ impl Nurbs<DVec2> {
     /// As [`Nurbs::intersections`].
     pub fn self_intersections(&self, tolerance: f64) -> Result<Vec<CurveIntersection>, SplineError> {
         check_tolerance(tolerance)?;
-        let mut parts: Vec<BoxedPiece> = Vec::new();
-        for piece in boxed_pieces(self)? {
-            let mut stack = vec![(piece.curve, 0)];
-            while let Some((curve, depth)) = stack.pop() {
-                let (a, b) = curve.interval();
-                let middle = 0.5 * (a + b);
-                let is_small = depth >= MAX_DEPTH || BoxedPiece::new(curve.clone()).size() <= tolerance;
-                if is_small
-                    || curve.tangent_cone().is_some_and(|(_, opening)| opening <= OPENING)
-                    || !(a < middle && middle < b)
-                {
-                    parts.push(BoxedPiece::new(curve));
-                    continue;
-                }
-                let (left, right) = curve.split(middle).map_err(as_spline_error)?;
-                stack.push((right, depth + 1));
-                stack.push((left, depth + 1));
-            }
-        }
+        let parts = gentle_parts(self, OPENING, tolerance)?;
         let closed = self.space().is_periodic();
         let last = parts.len() - 1;
+        let tree = IntersectionTree::of_pieces(self, parts)?;
         let mut found = Vec::new();
-        for (i, j) in overlapping_pairs(&parts, &parts, tolerance) {
+        for (i, j) in tree.pairs(&tree, tolerance) {
+            let (p, q) = (&tree.pieces[i], &tree.pieces[j]);
             let is_neighbour = i + 1 == j || (closed && i == 0 && j == last);
-            if i >= j || (is_neighbour && share_a_cone(&parts[i].curve, &parts[j].curve)) {
+            if i >= j || (is_neighbour && share_a_cone(&p.curve, &q.curve)) {
                 continue;
             }
-            let hits = parts[i].curve.intersections(&parts[j].curve, tolerance).map_err(as_spline_error)?;
+            let mut hits = Vec::new();
+            meet(p, q, tolerance, HALVINGS, &mut hits)?;
             let at_joint = |[t, u]: [f64; 2]| {
-                let ((a, b), (c, d)) = (parts[i].curve.interval(), parts[j].curve.interval());
+                let ((a, b), (c, d)) = (p.curve.interval(), q.curve.interval());
                 let near = |x: f64, end: f64, length: f64| (x - end).abs() <= COMMON_END * length;
                 (i + 1 == j && near(t, b, b - a) && near(u, c, d - c))
                     || (closed && i == 0 && j == last && near(t, a, b - a) && near(u, d, d - c))
             };
-            found.extend(hits.into_iter().filter(|hit| !(is_neighbour && at_joint(hit.parameters))).map(
-                |hit| {
-                    let meeting = hit.contact.into();
-                    CurveIntersection { parameters: hit.parameters, point: hit.point, meeting }
-                },
-            ));
+            hits.retain(|hit| {
+                !(is_neighbour && at_joint(hit.parameters)) && !self.stays_near(hit, tolerance)
+            });
+            found.append(&mut hits);
         }
         Ok(Merge { curves: [self, self], tolerance }.merged(found))
+    }
+}
+
+impl Nurbs<DVec2> {
+    /// Whether the curve hardly leaves the point between both parameters: at a cusp, whose branches are `ε` apart at the distance `ε^(2/3)`.
+    fn stays_near(&self, hit: &CurveIntersection, tolerance: f64) -> bool {
+        let mut ends = hit.parameters;
+        if let Meeting::Overlap { first, second } = hit.meeting {
+            let all = || first.into_iter().chain(second);
+            ends = [all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max)];
+        }
+        let (a, b) = self.space().parameter_interval();
+        let size = self.points().iter().map(|point| point.distance(self.points()[0])).fold(0.0, f64::max);
+        let reach = CUSP * (tolerance * tolerance * size).cbrt();
+        let is_near = |from: f64, to: f64| {
+            let between = (0..=SAMPLES).map(|i| from.mix(to, f64::from(i) / f64::from(SAMPLES)));
+            let turned = |t: f64| if t > b { t - (b - a) } else { t };
+            between
+                .map(turned)
+                .all(|t| self.evaluate(t).is_ok_and(|point| point.distance(hit.point) <= reach))
+        };
+        let [low, high] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+        is_near(low, high) || (self.space().is_periodic() && is_near(high, low + (b - a)))
     }
 }
 
@@ -89,7 +98,6 @@ mod tests {
 
     use super::*;
     use crate::core::bspline::{EndKnots, SplineSpace};
-    use crate::core::spline_curve::Meeting;
 
     fn curve(degree: usize, points: &[[f64; 2]]) -> Nurbs<DVec2> {
         let breaks: Vec<f64> = (0..=points.len() - degree).map(|i| i as f64).collect();

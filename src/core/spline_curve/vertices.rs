@@ -13,6 +13,8 @@ use crate::core::spline_curve::piecewise_sign::{PieceSigns, PiecewiseSign, SignP
 
 /// Curvatures on both sides of a knot that differ by less than this part of them are one.
 const SAME: f64 = 1e-9;
+/// The rounding error of a curvature in units of that of the coordinates over the square of the size.
+const NOISE: f64 = 100.0;
 
 /// What kind of extremum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -63,13 +65,14 @@ impl Nurbs<DVec2> {
     ///
     /// `NonFinite` where products of coordinates overflow.
     pub fn vertices(&self) -> Result<Vertices, SplineError> {
-        let mut signs = Vec::new();
+        let (mut signs, mut noise) = (Vec::new(), Vec::new());
         for (index, piece) in self.local_pieces()?.iter().enumerate() {
             let piece_signs = match checked(index, turning_change(piece))? {
                 Some(change) => PieceSigns::new(&change.coefficients, change.noise),
                 None => PieceSigns::new(&[0.0], 0.0),
             };
             signs.push((piece.interval, piece_signs));
+            noise.push(NOISE * piece.error / (piece.extent * piece.extent));
         }
         let is_closed = self.space().is_periodic();
         let sign = PiecewiseSign::new(&signs, is_closed);
@@ -81,7 +84,10 @@ impl Nurbs<DVec2> {
             let sides = [if t == start && !is_closed { Side::Right } else { Side::Left }, Side::Right];
             let sides = if is_end && t == end { [Side::Left; 2] } else { sides };
             let [Ok(left), Ok(right)] = sides.map(|side| self.curvature(t, side)) else { continue };
-            if let Some(kind) = if is_end { Some(VertexKind::End) } else { kind(place, left, right) } {
+            // The pieces on both sides; the last one goes before the first of a closed curve.
+            let noise = noise[place.piece.min(noise.len() - 1)]
+                .max(noise[place.piece.checked_sub(1).unwrap_or(noise.len() - 1)]);
+            if let Some(kind) = if is_end { Some(VertexKind::End) } else { kind(place, left, right, noise) } {
                 vertices.push(Vertex { parameter: t, curvatures: [left, right], kind });
             }
         }
@@ -90,8 +96,8 @@ impl Nurbs<DVec2> {
 }
 
 /// What is at a place that is no end.
-fn kind(place: &SignPlace, left: f64, right: f64) -> Option<VertexKind> {
-    let jumps = place.is_joint && (left - right).abs() > SAME * left.abs().max(right.abs());
+fn kind(place: &SignPlace, left: f64, right: f64, noise: f64) -> Option<VertexKind> {
+    let jumps = place.is_joint && (left - right).abs() > SAME * left.abs().max(right.abs()) + noise;
     let changes = place.before * place.after < 0;
     match (jumps || (changes && !place.is_zero), changes, place.before > 0) {
         (true, ..) => Some(VertexKind::Knot),

@@ -39,7 +39,7 @@ pub(super) fn check(
     feedback: &str,
 ) -> Verdict {
     let Some(scheme) = approximation.methods().get(method).map(|method| &method.scheme) else {
-        return Verdict::wrong(None, "The method of this question is gone. Open the lesson again.");
+        return Verdict::wrong(None, "The method of this question is gone. Go back to the example.");
     };
     match *task {
         FitTask::ErrorBelow { limit, most_knots } => {
@@ -113,7 +113,7 @@ fn goal(
         Err(error) => return Verdict::wrong(None, sentence(&error.to_string())),
     };
     let Some(error) = error else {
-        return Verdict::wrong(None, "There is no function to compare with. Open the lesson again.");
+        return Verdict::wrong(None, "There is no function to compare with. Go back to the example.");
     };
     if error.size <= limit {
         return Verdict::right(error.size, feedback);

@@ -1,16 +1,22 @@
 //! Questions that the mathematics of the core checks: never by comparing pictures, always for the curve as it is now.
 //!
-//! A [`Question`] has a prompt and a [`Task`] of one of three kinds: a number to type, a point to place, a curve to bend.
+//! A [`Question`] has a prompt and a [`Task`]: a number to type, a point to place, a curve to bend.
 //! [`Question::check`] computes the right answer from the document and gives a [`Verdict`]; a wrong answer gets a hint
 //! drawn from the fact that it violates.
 
 mod elements;
 mod fit;
+mod joint_goal;
+mod kept;
+mod knot_goal;
 mod mesh;
 mod number;
 mod place_point;
 mod shape_goal;
+mod shape_measure;
 mod surface;
+
+use std::sync::Arc;
 
 use glam::DVec2;
 use serde::Deserialize;
@@ -22,6 +28,8 @@ use crate::document::{Document, ObjectId};
 
 pub use elements::ElementsQuantity;
 pub use fit::FitTask;
+pub use joint_goal::{Contact, EndGoal};
+pub use kept::Kept;
 pub use mesh::MeshQuantity;
 pub use number::{Axis, Quantity};
 pub use shape_goal::Goal;
@@ -39,6 +47,12 @@ pub struct Question {
     pub task: Task,
     /// Said when the answer is right; may contain formulas between dollar signs.
     pub feedback: String,
+    /// What of the curve must stay as it is in the lesson's scene.
+    #[serde(default)]
+    pub keep: Vec<Kept>,
+    /// The curve in the lesson's scene.
+    #[serde(skip)]
+    pub original: Option<Arc<Nurbs<DVec2>>>,
 }
 
 /// What is to be done.
@@ -73,7 +87,7 @@ pub enum Task {
         /// The largest difference that counts as right.
         tolerance: f64,
     },
-    /// Place the point `pⁱₖ` of de Boor's scheme.
+    /// Place the point `pⁱₖ` of de Boor's scheme, of de Casteljau's for a Bezier curve over `[0, 1]`.
     PlacePoint {
         /// The parameter.
         parameter: f64,
@@ -139,14 +153,14 @@ impl Question {
         match &self.task {
             Task::Fit { method, asked } => match document.approximation(ObjectId(self.object)) {
                 Some(data) => fit::check(data, *method, asked, answer, &self.feedback),
-                None => Verdict::wrong(None, "The data of this question are gone. Open the lesson again."),
+                None => Verdict::wrong(None, "The data of this question are gone. Go back to the example."),
             },
             Task::Elements { quantity, tolerance } => {
                 let object = document.object(ObjectId(self.object));
                 let Some((membrane, _)) = object.and_then(|object| object.membrane()) else {
                     return Verdict::wrong(
                         None,
-                        "The problem of this question is gone. Open the lesson again.",
+                        "The problem of this question is gone. Go back to the example.",
                     );
                 };
                 typed(answer, |value| elements::check(membrane, quantity, *tolerance, value, &self.feedback))
@@ -156,7 +170,7 @@ impl Question {
                 let Some(surface) = object.and_then(|object| object.surface()) else {
                     return Verdict::wrong(
                         None,
-                        "The surface of this question is gone. Open the lesson again.",
+                        "The surface of this question is gone. Go back to the example.",
                     );
                 };
                 typed(answer, |value| surface::check(surface, quantity, *tolerance, value, &self.feedback))
@@ -164,7 +178,10 @@ impl Question {
             Task::Mesh { quantity, tolerance } => {
                 let object = document.object(ObjectId(self.object));
                 let Some(mesh) = object.and_then(|object| object.mesh()) else {
-                    return Verdict::wrong(None, "The mesh of this question is gone. Open the lesson again.");
+                    return Verdict::wrong(
+                        None,
+                        "The mesh of this question is gone. Go back to the example.",
+                    );
                 };
                 typed(answer, |value| mesh::check(mesh, quantity, *tolerance, value, &self.feedback))
             }
@@ -172,7 +189,7 @@ impl Question {
                 match document.curve(ObjectId(self.object)) {
                     Some(curve) => self.check_curve(document, curve, answer),
                     None => {
-                        Verdict::wrong(None, "The curve of this question is gone. Open the lesson again.")
+                        Verdict::wrong(None, "The curve of this question is gone. Go back to the example.")
                     }
                 }
             }
@@ -188,7 +205,15 @@ impl Question {
                 let wanted = place_point::Wanted { parameter: *parameter, level: *level, index: *index };
                 place_point::check(curve, wanted, *tolerance, *point, &self.feedback)
             }
-            (Task::Shape { goal }, _) => shape_goal::check(document, curve, goal, &self.feedback),
+            (Task::Shape { goal }, _) => {
+                let original = self.original.as_deref();
+                let changed = original
+                    .and_then(|original| self.keep.iter().find_map(|kept| kept.violation(original, curve)));
+                match changed {
+                    Some(message) => Verdict::wrong(None, message),
+                    None => shape_goal::check(document, curve, goal, &self.feedback),
+                }
+            }
             _ => Verdict::wrong(None, "Place the point in the picture."),
         }
     }
@@ -239,20 +264,44 @@ fn typed(answer: &Answer, judge: impl FnOnce(f64) -> Verdict) -> Verdict {
     }
 }
 
-/// De Boor's scheme at `parameter` and in it the entry `p_index^level`.
+/// De Boor's scheme at `parameter`.
+fn scheme(curve: &Nurbs<DVec2>, parameter: f64) -> Result<Stepper, String> {
+    de_boor_stepper(curve, parameter).map_err(|error| sentence(&error.to_string()))
+}
+
+/// Whether the curve is a Bezier curve over `[0, 1]` without weights, so that its scheme is de Casteljau's.
+fn is_bezier(curve: &Nurbs<DVec2>) -> bool {
+    let (n, space) = (curve.degree(), curve.space());
+    curve.is_polynomial()
+        && !space.is_periodic()
+        && space.dimension() == n + 1
+        && space.multiplicity(0.0) == n
+        && space.multiplicity(1.0) == n
+}
+
+/// The name of an entry: de Casteljau counts entries from their left parent, de Boor from their right one.
+fn name(curve: &Nurbs<DVec2>, entry: &Entry) -> String {
+    match entry.index.checked_sub(entry.level) {
+        Some(index) if entry.level > 0 && is_bezier(curve) => format!("p_{{{index}}}^{{{}}}", entry.level),
+        _ => entry.label.clone(),
+    }
+}
+
+/// The scheme at `parameter` and in it the entry `p_index^level`, as [`name`] counts.
 fn find_entry(
     curve: &Nurbs<DVec2>,
     parameter: f64,
     level: usize,
     index: usize,
 ) -> Result<(Stepper, Entry), String> {
-    let stepper = de_boor_stepper(curve, parameter).map_err(|error| sentence(&error.to_string()))?;
-    let entry = stepper.table().find(|entry| entry.level == level && entry.index == index).cloned();
+    let stepper = scheme(curve, parameter)?;
+    let own_index = if is_bezier(curve) { index + level } else { index };
+    let entry = stepper.table().find(|entry| entry.level == level && entry.index == own_index).cloned();
     match entry {
         Some(entry) => Ok((stepper, entry)),
         None => Err(format!(
-            "The curve has changed: at this parameter there is no point $p_{{{index}}}^{{{level}}}$ any more. Open the \
-             lesson again."
+            "The curve has changed: at this parameter there is no point $p_{{{index}}}^{{{level}}}$ any more. Go back \
+             to the example."
         )),
     }
 }
@@ -307,7 +356,8 @@ mod tests {
     }
 
     fn question(object: u64, task: Task) -> Question {
-        Question { prompt: String::new(), object, task, feedback: "Right.".into() }
+        let (keep, original) = (Vec::new(), None);
+        Question { prompt: String::new(), object, task, feedback: "Right.".into(), keep, original }
     }
 
     fn number(object: u64, quantity: Quantity) -> Question {

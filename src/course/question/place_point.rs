@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::core::spline_curve::Nurbs;
 use crate::course::number_text::short_number;
-use crate::course::question::{Verdict, find_entry, parents, polygon_size};
+use crate::course::question::{Verdict, find_entry, name, parents, polygon_size};
 
 /// The point that is asked for.
 #[derive(Clone, Copy, Debug)]
@@ -29,14 +29,14 @@ pub(super) fn check(
     let size = polygon_size(curve);
     let Some(right) = entry.point() else { return Verdict::wrong(None, "The scheme holds no points.") };
     if size <= 0.0 {
-        return Verdict::wrong(None, "All control points lie in one place. Open the lesson again.");
+        return Verdict::wrong(None, "All control points lie in one place. Go back to the example.");
     }
     let measured = placed.distance(right) / size;
     if measured <= tolerance {
         return Verdict::right(measured, feedback);
     }
     let hint = match parents(&stepper, &entry) {
-        None => format!("${}$ is a control point.", entry.label),
+        None => format!("${}$ is a control point.", name(curve, &entry)),
         Some((left, right_parent)) => {
             let (Some(from), Some(to)) = (left.point(), right_parent.point()) else {
                 return Verdict::wrong(Some(measured), "The scheme holds no points.");
@@ -48,9 +48,9 @@ pub(super) fn check(
                 0.0
             };
             let beside = placed.distance(from + leg * along) / size;
-            let (name, left, right) = (&entry.label, &left.label, &right_parent.label);
+            let [own, left, right] = [&entry, left, right_parent].map(|entry| name(curve, entry));
             if beside > tolerance {
-                format!("${name}$ lies on the segment from ${left}$ to ${right}$; yours is beside it.")
+                format!("${own}$ lies on the segment from ${left}$ to ${right}$; yours is beside it.")
             } else {
                 let true_share = if leg.length_squared() > 0.0 {
                     (entry_point(&entry) - from).length() / leg.length()
@@ -58,7 +58,7 @@ pub(super) fn check(
                     0.0
                 };
                 format!(
-                    "It is on the segment from ${left}$ to ${right}$, but {} % of the way along; ${name}$ is {}.",
+                    "It is on the segment from ${left}$ to ${right}$, but {} % of the way along; ${own}$ is {}.",
                     short_number((100.0 * along).round()),
                     if along < true_share { "farther on" } else { "nearer to the start" }
                 )

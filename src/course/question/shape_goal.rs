@@ -6,6 +6,9 @@ use serde::Deserialize;
 use crate::core::bspline::Side;
 use crate::core::spline_curve::Nurbs;
 use crate::course::number_text::{short_number, short_point};
+use crate::course::question::joint_goal::{Contact, EndGoal, check_ends, check_joint};
+use crate::course::question::knot_goal::{check_multiplicity, check_smooth, times};
+use crate::course::question::shape_measure::{check_circle, check_crossings};
 use crate::course::question::{Verdict, polygon_size};
 use crate::document::{Document, ObjectId};
 
@@ -39,6 +42,52 @@ pub enum Goal {
         /// The largest distance between the curves that counts, as a share of the other polygon's size.
         tolerance: f64,
     },
+    /// Start where another curve ends, and go on smoothly.
+    Joint {
+        /// Number of the curve before.
+        before: u64,
+        /// What counts: derivatives, or the shape alone.
+        contact: Contact,
+        /// Up to which order: 1 for tangents, 2 for curvature or second derivatives.
+        order: usize,
+        /// The largest share of the size by which lengths, and angle in radians by which directions, may differ.
+        tolerance: f64,
+    },
+    /// Have given points, directions and curvatures at both ends.
+    Ends {
+        /// At the start.
+        start: EndGoal,
+        /// At the end.
+        end: EndGoal,
+        /// The largest share by which lengths and curvatures, and angle in radians by which directions, may differ.
+        tolerance: f64,
+    },
+    /// Have a knot exactly so many times.
+    Multiplicity {
+        /// The knot.
+        at: f64,
+        /// How often.
+        times: usize,
+    },
+    /// Have so many continuous derivatives at all inner knots, whatever the control points are.
+    Smooth {
+        /// How many.
+        order: usize,
+    },
+    /// Cross a line so often, polygon and curve.
+    Crossings {
+        /// Number of the object whose first and last control point the line joins.
+        line: u64,
+        /// Crossings of the control polygon.
+        polygon: usize,
+        /// Crossings of the curve.
+        curve: usize,
+    },
+    /// Be an arc of a circle.
+    CircleArc {
+        /// The largest distance from the circle, as a share of its radius.
+        tolerance: f64,
+    },
 }
 
 /// Judges `curve` of `document`.
@@ -60,9 +109,19 @@ pub(super) fn check(document: &Document, curve: &Nurbs<DVec2>, goal: &Goal, feed
             Verdict::wrong(Some(measured), message)
         }
         Goal::Corner { at } => check_corner(curve, at, feedback),
+        Goal::Joint { before, contact, order, tolerance } => {
+            check_joint(document, curve, before, (contact, order), tolerance, feedback)
+        }
+        Goal::Ends { ref start, ref end, tolerance } => check_ends(curve, [start, end], tolerance, feedback),
+        Goal::Multiplicity { at, times } => check_multiplicity(curve, at, times, feedback),
+        Goal::Smooth { order } => check_smooth(curve, order, feedback),
+        Goal::Crossings { line, polygon, curve: of_curve } => {
+            check_crossings(document, curve, line, [polygon, of_curve], feedback)
+        }
+        Goal::CircleArc { tolerance } => check_circle(curve, tolerance, feedback),
         Goal::Follow { reference, tolerance } => {
             let Some(other) = document.curve(ObjectId(reference)) else {
-                return Verdict::wrong(None, "The curve to follow is gone. Open the lesson again.");
+                return Verdict::wrong(None, "The curve to follow is gone. Go back to the example.");
             };
             let size = polygon_size(other).max(f64::MIN_POSITIVE);
             let (gap, place) = largest_gap(curve, other);
@@ -94,10 +153,11 @@ fn check_corner(curve: &Nurbs<DVec2>, at: f64, feedback: &str) -> Verdict {
         return Verdict::wrong(None, "The curve does not reach this parameter.");
     };
     if mu < n {
-        let times = if mu == 1 { "once".to_owned() } else { format!("{mu} times") };
         let message = format!(
-            "The knot {} stands there {times}; the tangent can jump only where it stands {n} times, the degree.",
-            short_number(at)
+            "The knot {} is there {}; the tangent can jump only where it is there {}, as the degree says.",
+            short_number(at),
+            times(mu),
+            times(n)
         );
         return Verdict::wrong(Some(0.0), message);
     }

@@ -1,12 +1,18 @@
-//! Steppers of curves: de Boor at a parameter, de Casteljau on a control polygon.
+//! De Boor's algorithm: the active control points are mixed until one point is left.
+//!
+//! `pⁱ⁺¹ₖ = γ pⁱₖ + (1 − γ) pⁱₖ₋₁` with `γ = (t − ξₖ)/(ξₖ₊ₙ₋ᵢ − ξₖ)`; at a knot of multiplicity `μ` the point is reached after `n − μ`
+//! steps. Course: sections 4.5, 4.6 and 6.1.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
-use crate::core::bspline::SplineError;
-use crate::core::rational_bezier::Projective as _;
+use crate::core::bspline::{DeBoorScheme, SplineError};
 use crate::core::spline_curve::Nurbs;
-use crate::core::triangular_scheme::TriangularScheme;
-use crate::course::stepper::{Algorithm, SchemeContext, Stepper};
+use crate::course::number_text::{formula_number, formula_point, short_number, short_point};
+use crate::course::stepper::narration::{
+    Name, Shares, counted, difference, multiplicity_word, place_in_interval, range_of,
+};
+use crate::course::stepper::teller::{Net, Teller, extent};
+use crate::course::stepper::{Entry, Stepper, StepperKind, Tie};
 
 /// De Boor's algorithm for `curve` at `t`, told step by step.
 ///
@@ -16,63 +22,159 @@ use crate::course::stepper::{Algorithm, SchemeContext, Stepper};
 /// # Errors
 ///
 /// `NonFinite`, `OutsideInterval`.
-///
-/// Course: sections 4.5, 4.6 and 6.1.
 pub fn de_boor_stepper(curve: &Nurbs<DVec2>, t: f64) -> Result<Stepper, SplineError> {
-    let knots = curve.space().evaluation_knots();
-    if curve.is_polynomial() {
-        let scheme = curve.without_weights().de_boor_scheme(t)?;
-        return Stepper::new(
-            &scheme.triangle,
-            &SchemeContext {
-                algorithm: Algorithm::DeBoor { knots, span: scheme.span },
-                parameter: scheme.parameter,
-                coefficients: &scheme.coefficients,
-                weights: None,
-            },
-        );
+    let net = Net::of(curve)?;
+    let scheme = net.spline.de_boor_scheme(t)?;
+    let (n, knots, span, t) =
+        (curve.degree(), curve.space().evaluation_knots(), scheme.span, scheme.parameter);
+    let shortcut = Shortcut::find(n, &knots[..=span], &knots[span + 1..], t);
+    let mut teller = Teller { note: shortcut.note(t), ..Teller::default() };
+    teller.row(net.active(span, n + 1));
+    teller.scheme(&scheme.triangle, net.rational, |level, position| {
+        Name::of_level(scheme.coefficients[level + position], level)
+    });
+    for entry in teller.levels.iter_mut().flatten() {
+        entry.needed = shortcut.needs(entry.level, entry.position);
     }
-    let scheme = curve.de_boor_scheme(t)?;
-    let weights: Vec<Vec<f64>> =
-        scheme.triangle.levels().iter().map(|level| level.iter().map(|point| point.z).collect()).collect();
-    Stepper::new(
-        &scheme.triangle.map(|point| DVec2::project(point).0),
-        &SchemeContext {
-            algorithm: Algorithm::DeBoor { knots, span: scheme.span },
-            parameter: scheme.parameter,
-            coefficients: &scheme.coefficients,
-            weights: Some(&weights),
-        },
-    )
+    open(&mut teller, t, (knots[span], knots[span + 1]));
+    for level in 1..=n {
+        for position in 0..=n - level {
+            if shortcut.needs(level, position) {
+                let low = span - n + level + position;
+                let shares = Shares::Fraction { at: t, low: knots[low], high: knots[low + n + 1 - level] };
+                teller.tell_mixture((level, position), &shares);
+            }
+        }
+    }
+    if shortcut.multiplicity > 0 {
+        rest(&mut teller, &shortcut);
+    }
+    close(&mut teller, &net, &scheme, &shortcut);
+    Ok(teller.end(StepperKind::DeBoor, t, shortcut.apex))
 }
 
-/// De Casteljau's algorithm for the Bezier curve over `[0, 1]` with the control points `points`.
-///
-/// # Errors
-///
-/// `Empty`; `DegreeZero` for a single point; `NonFinite`; `OutsideInterval` for `t` outside `[0, 1]`.
-///
-/// Course: section 2.2.
-pub fn de_casteljau_stepper(points: &[DVec2], t: f64) -> Result<Stepper, SplineError> {
-    if let Some(index) = points.iter().position(|point| !point.is_finite()) {
-        let point = points[index];
-        let value = if point.x.is_finite() { point.y } else { point.x };
-        return Err(SplineError::NonFinite { what: "control point", index, value });
+/// Frame 0: the coefficients that the point depends on.
+fn open(teller: &mut Teller, t: f64, (left, right): (f64, f64)) {
+    let needed: Vec<Entry> = teller.levels[0].iter().filter(|entry| entry.needed).cloned().collect();
+    let named = match &needed[..] {
+        [only] => format!("The point depends on {} alone.", only.plain_label),
+        several => format!(
+            "The point depends on {}, {}.",
+            counted(several.len(), "control point"),
+            range_of(several)
+        ),
+    };
+    let (place, formula) = place_in_interval(t, left, right);
+    let note = teller.note.as_ref().map(|note| format!(" {note}")).unwrap_or_default();
+    let ties: Vec<Tie> = needed.iter().map(Entry::tie).collect();
+    teller.tell(format!("{place} {named}{note}"), formula, ties.clone(), ties);
+}
+
+/// At a knot: the entries on which the point does not depend, all at once.
+fn rest(teller: &mut Teller, shortcut: &Shortcut) {
+    let apex = teller.levels[shortcut.apex.0][shortcut.apex.1].clone();
+    let last = teller.levels.len() - 1;
+    let others = teller.levels[..last].iter().flatten().filter(|entry| !entry.needed);
+    let reveals = others.map(Entry::tie).collect();
+    let caption = format!(
+        "The point of the curve is reached: {} = {}. The other entries serve the tangent only.",
+        apex.plain_label,
+        short_point(&apex.coordinates)
+    );
+    let formula = format!("p = {} = {}", apex.label, formula_point(&apex.coordinates));
+    teller.tell(caption, formula, reveals, vec![apex.tie()]);
+}
+
+/// The last frame: the point and its tangent through the last two points.
+fn close(teller: &mut Teller, net: &Net, scheme: &DeBoorScheme<DVec3>, shortcut: &Shortcut) {
+    let knots = net.spline.space().evaluation_knots();
+    let (from, to) = (knots[scheme.span], knots[scheme.span + 1]);
+    let side = match (shortcut.multiplicity >= shortcut.degree, shortcut.at_right_end) {
+        (true, false) => " on the right of the knot",
+        (true, true) => " on the left of the knot",
+        _ => "",
+    };
+    close_with_tangent(teller, net, (from, to), side);
+    if shortcut.multiplicity > 0
+        && let Some(frame) = teller.frames.last_mut()
+    {
+        frame.reveals.push((shortcut.degree, 0));
     }
-    if t.is_finite() && !(0.0..=1.0).contains(&t) {
-        return Err(SplineError::OutsideInterval { value: t, left: 0.0, right: 1.0 });
+}
+
+/// Point and tangent `n (pⁿ⁻¹ᵣ − pⁿ⁻¹ₗ)/(to − from)`, times `wₗ wᵣ/w²` for rational schemes, from the last two rows.
+pub(super) fn close_with_tangent(teller: &mut Teller, net: &Net, (from, to): (f64, f64), side: &str) {
+    let degree = teller.levels.len() - 1;
+    let ([left, right, ..], [top, ..]) = (&teller.levels[degree - 1][..], &teller.levels[degree][..]) else {
+        return;
+    };
+    let (left, right, top) = (left.clone(), right.clone(), top.clone());
+    let caption = format!(
+        "The point is {}. The last two points, {} and {}, span the tangent{side}.",
+        short_point(&top.coordinates),
+        left.plain_label,
+        right.plain_label
+    );
+    let (mut factor, mut weights) = (degree as f64 / (to - from), String::new());
+    if let (Some(left), Some(right), Some(top)) = (left.weight, right.weight, top.weight) {
+        factor *= (left / top) * (right / top);
+        let [left, right, top] = [left, right, top].map(formula_number);
+        weights = format!("\\frac{{{left} \\cdot {right}}}{{{top}^2}} ");
     }
-    let coefficients: Vec<usize> = (0..points.len()).collect();
-    let scheme = TriangularScheme::run(points.to_vec(), points.len().saturating_sub(1), |_, _| t);
-    Stepper::new(
-        &scheme,
-        &SchemeContext {
-            algorithm: Algorithm::DeCasteljau,
-            parameter: t,
-            coefficients: &coefficients,
-            weights: None,
-        },
-    )
+    let place = |entry: &Entry| DVec2::new(entry.coordinates[0], entry.coordinates[1]);
+    let tangent = (place(&right) - place(&left)) * factor;
+    let formula = format!(
+        "p' = {degree} {weights}\\frac{{{} - {}}}{{{}}} = {}",
+        right.label,
+        left.label,
+        difference(to, from),
+        formula_point(&tangent.to_array())
+    );
+    teller.tell(caption, formula, Vec::new(), vec![left.tie(), right.tie(), top.tie()]);
+    let reach = 0.25 * extent(&net.polygon(&net.spline));
+    teller.draw_tangent(place(&top), tangent, reach);
+    teller.tangent = Some(tangent);
+}
+
+/// Which entries the point depends on: at a knot of multiplicity `μ` the scheme ends after `n − μ` steps.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shortcut {
+    degree: usize,
+    /// `μ`; 0 inside a knot interval.
+    multiplicity: usize,
+    /// Whether the parameter is the right end of its interval.
+    at_right_end: bool,
+    apex: Tie,
+}
+
+impl Shortcut {
+    /// With the knots up to the left end of the interval, and those from its right end on.
+    fn find(degree: usize, before: &[f64], behind: &[f64], t: f64) -> Self {
+        let same = |knot: &&f64| **knot == t;
+        let left = before.iter().rev().take_while(same).count();
+        let right = behind.iter().take_while(same).count();
+        let multiplicity = left.max(right).min(degree);
+        let at_right_end = right > 0;
+        let apex = (degree - multiplicity, if at_right_end { multiplicity } else { 0 });
+        Self { degree, multiplicity, at_right_end, apex }
+    }
+
+    fn needs(&self, level: usize, position: usize) -> bool {
+        let (last, first) = self.apex;
+        level <= last && position >= first && position <= first + last - level
+    }
+
+    fn note(&self, t: f64) -> Option<String> {
+        if self.multiplicity == 0 {
+            return None;
+        }
+        let suffice = match self.apex.0 {
+            0 => "no step is needed".to_owned(),
+            1 => format!("1 step instead of {} suffices", self.degree),
+            several => format!("{several} steps instead of {} suffice", self.degree),
+        };
+        Some(format!("t = {} is {} knot: {suffice}.", short_number(t), multiplicity_word(self.multiplicity)))
+    }
 }
 
 #[cfg(test)]
@@ -117,7 +219,7 @@ mod tests {
         }
         assert_eq!(stepper.entry(2, 1).map(|entry| entry.label.as_str()), Some("p_4^2"), "name");
         assert_eq!(stepper.steps_needed(), 3, "inside an interval all steps are needed");
-        assert_near(stepper.tangent(), DVec2::new(1.0, 3.0), "slope 3 of the graph");
+        assert_near(&stepper.tangent().unwrap().to_array(), DVec2::new(1.0, 3.0), "slope 3 of the graph");
     }
 
     #[test]
@@ -192,7 +294,7 @@ mod tests {
                 let side = if step == 40 { Side::Left } else { Side::Right };
                 let expected = curve.derivatives(t, 1, side).unwrap();
                 assert_near(&stepper.apex().coordinates, expected[0], &format!("point at {t}"));
-                assert_near(stepper.tangent(), expected[1], &format!("tangent at {t}"));
+                assert_near(&stepper.tangent().unwrap().to_array(), expected[1], &format!("tangent at {t}"));
             }
         }
     }
@@ -210,7 +312,7 @@ mod tests {
         let entry = stepper.entry(1, 0).unwrap();
         // w = (1 - 5/6)*2 + 5/6*0.5
         assert!((entry.weight.unwrap() - 0.75).abs() < 1e-15, "{entry:?}");
-        assert_eq!(entry.texts.len(), 2, "point and weight");
+        assert_eq!((entry.lines.len(), entry.lines[2].as_str()), (3, "w 0.75"), "point and weight");
         assert!(
             stepper.frames()[1].formula.starts_with("w_2^1 \\, p_2^1 = \\frac{5-0}{6-0} \\, w_2 \\, c_2"),
             "homogeneous"
@@ -218,62 +320,8 @@ mod tests {
     }
 
     #[test]
-    fn de_casteljau_names_entries_after_the_left_parent() {
-        let points = [(0.0, 0.0), (1.0, 2.0), (3.0, 2.0), (4.0, 0.0)].map(DVec2::from);
-        let stepper = de_casteljau_stepper(&points, 0.5).unwrap();
-        assert_eq!(stepper.apex().label, "p_0^3", "apex");
-        assert_near(&stepper.apex().coordinates, DVec2::new(2.0, 1.5), "point");
-        assert_near(stepper.tangent(), DVec2::new(4.5, 0.0), "tangent");
-        assert_eq!(de_casteljau_stepper(&points, 0.0).unwrap().steps_needed(), 0, "t = 0 is c_0");
-    }
-
-    #[test]
     fn bad_input_is_an_error() {
         assert_eq!(de_boor_stepper(&graph(None), 9.0).unwrap_err().name(), "OutsideInterval", "beyond D");
         assert_eq!(de_boor_stepper(&graph(None), f64::NAN).unwrap_err().name(), "NonFinite", "NaN");
-        assert_eq!(de_casteljau_stepper(&[], 0.5).unwrap_err().name(), "Empty", "no points");
-        assert_eq!(de_casteljau_stepper(&[DVec2::ZERO], 0.5).unwrap_err().name(), "DegreeZero", "one point");
-    }
-
-    #[test]
-    fn numbers_are_told_as_well_as_points() {
-        let space = SplineSpace::new(3, KNOTS.to_vec()).unwrap();
-        let spline = crate::core::bspline::Spline::new(space, COEFFICIENTS.to_vec()).unwrap();
-        let scheme = spline.de_boor_scheme(5.0).unwrap();
-        let context = SchemeContext {
-            algorithm: Algorithm::DeBoor { knots: &KNOTS, span: scheme.span },
-            parameter: 5.0,
-            coefficients: &scheme.coefficients,
-            weights: None,
-        };
-        let stepper = Stepper::new(&scheme.triangle, &context).unwrap();
-        assert_eq!(stepper.entry(2, 1).map(|entry| entry.texts.clone()), Some(vec!["2".to_owned()]), "p_4^2");
-        assert!(stepper.frames()[5].formula.ends_with("= 2"), "{}", stepper.frames()[5].formula);
-    }
-
-    #[test]
-    fn every_formula_can_be_typeset() {
-        let tiny = {
-            let knots = vec![-1e-9, 0.0, 0.0, 2e-9, 1e12, 1e12, 2e12];
-            let space = SplineSpace::new(2, knots).unwrap();
-            let points = [(-1.0, 1e-12), (3.0, -4e20), (5.0, 6.0), (-0.5, 0.0)].map(DVec2::from).to_vec();
-            Nurbs::new(space, points, vec![1.0, 1e-8, 3.0, 2.0]).unwrap()
-        };
-        let weighted = graph(Some(vec![1.0, 2.0, 0.5, 3.0, 1.0, 1.5, 1.0]));
-        for (curve, t) in [
-            (&graph(None), 5.0),
-            (&weighted, 4.0),
-            (&weighted, 8.0),
-            (&tiny, 1e-9),
-            (&closed(12, vec![1.0; 5]), 0.5),
-        ] {
-            let stepper = de_boor_stepper(curve, t).unwrap();
-            let labels = stepper.table().map(|entry| &entry.label);
-            for source in stepper.frames().iter().map(|frame| &frame.formula).chain(labels) {
-                if let Err(error) = crate::figure::formula::layout(source, 12.0) {
-                    panic!("t = {t}: {source}: {error}");
-                }
-            }
-        }
     }
 }

@@ -116,9 +116,12 @@ impl Document {
             Edit::InsertKnot { object, at } => knots::insert(self, *object, *at),
             Edit::RemoveKnot { object, at } => knots::remove(self, *object, *at),
             Edit::RefineUniformly { object } => knots::refine_uniformly(self, *object),
-            Edit::MoveKnot { object, knot, to } => knots::move_copy(self, *object, *knot, *to),
-            Edit::MoveDistinctKnot { object, at, to } => knots::move_distinct(self, *object, *at, *to),
-            Edit::SetKnots { object, knots } => knots::set(self, *object, knots),
+            Edit::RemoveKnotsWithin { object, tolerance } => knots::remove_within(self, *object, *tolerance),
+            Edit::MoveKnot { object, .. }
+            | Edit::MoveDistinctKnot { object, .. }
+            | Edit::SetKnots { object, .. }
+            | Edit::GenerateKnots { object, .. } => knots::keeping_points(self, *object, edit),
+            Edit::KeepCurve { edit } => knots::keeping_curve(self, edit),
             Edit::ElevateDegree { object } => degree::elevate(self, *object),
             Edit::ReduceDegree { object } => degree::reduce(self, *object),
             Edit::SetDegree { object, degree } => degree::set(self, *object, *degree),

@@ -14,17 +14,17 @@ use crate::figure::picture::{Picture, Viewport};
 use crate::figure::theme::Theme;
 use crate::figure::ticks::{grid_labels, grid_lines};
 
-pub use construction::{SchemeReveal, construction_items};
+pub use construction::{StepDot, StepDrawing, StepInk, StepLine, construction_items};
 pub use curve_layers::short_number;
 
 /// Name of the entry of [`View::panels`] that says whether the grid is drawn; it is if there is no entry.
 pub const GRID: &str = "grid";
 
-/// How much of de Boor's construction is drawn, per object; everything if nothing is said.
+/// What is drawn beside what the document says.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Composition {
-    /// The object whose construction is being stepped through, and the entries shown so far.
-    pub reveal: Option<(crate::document::ObjectId, SchemeReveal)>,
+    /// The object on which an algorithm is being stepped through, and its present step, drawn instead of de Boor's construction.
+    pub step: Option<(crate::document::ObjectId, StepDrawing)>,
     /// Whether the ground is filled.
     pub transparent: bool,
 }
@@ -50,8 +50,8 @@ pub fn compose_with(
     for object in document.objects().iter().filter(|object| object.visible) {
         let Content::Curve { curve, display } = &object.content else { continue };
         let parameter = parameter_of(curve, view.parameters.get(&object.id).copied());
-        let reveal = choices.reveal.as_ref().filter(|(id, _)| *id == object.id).map(|(_, reveal)| reveal);
-        push_curve(&mut picture, object, (curve, display), parameter, reveal, theme, viewport);
+        let step = choices.step.as_ref().filter(|(id, _)| *id == object.id).map(|(_, step)| step);
+        push_curve(&mut picture, object, (curve, display), parameter, step, theme, viewport);
     }
     picture
 }
@@ -67,7 +67,7 @@ fn push_curve(
     object: &Object,
     (curve, display): (&Nurbs<DVec2>, &CurveDisplay),
     parameter: f64,
-    reveal: Option<&SchemeReveal>,
+    step: Option<&StepDrawing>,
     theme: &Theme,
     viewport: &Viewport,
 ) {
@@ -85,9 +85,10 @@ fn push_curve(
         picture.push_layer(layer("control polygon"), curve_layers::polygon(curve, theme));
     }
     picture.push_layer(layer("curve"), curve_layers::curve(curve, display, theme, viewport));
-    if display.construction || reveal.is_some() {
-        picture
-            .push_layer(layer("construction"), construction_items(curve, parameter, reveal, display, theme));
+    if let Some(step) = step {
+        picture.push_layer(layer("construction"), step.items(display, theme));
+    } else if display.construction {
+        picture.push_layer(layer("construction"), construction_items(curve, parameter, display, theme));
     }
     if display.knots {
         picture.push_layer(layer("knots"), curve_layers::knots(curve, display, theme));
