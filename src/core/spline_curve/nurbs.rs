@@ -29,6 +29,8 @@ pub struct Nurbs<P: Projective> {
     points: Spline<P>,
     weights: Vec<f64>,
     homogeneous: Spline<P::Homogeneous>,
+    /// Whether all weights are the same number; evaluation asks for every point.
+    is_polynomial: bool,
 }
 
 impl<P: Projective> Nurbs<P> {
@@ -53,7 +55,8 @@ impl<P: Projective> Nurbs<P> {
         let lifted =
             points.coefficients().iter().zip(&weights).map(|(point, &weight)| point.lift(weight)).collect();
         let homogeneous = Spline::new(points.space().clone(), lifted)?;
-        Ok(Self { points, weights, homogeneous })
+        let is_polynomial = weights.windows(2).all(|pair| pair[0].to_bits() == pair[1].to_bits());
+        Ok(Self { points, weights, homogeneous, is_polynomial })
     }
 
     /// The polynomial curve: all weights 1.
@@ -132,7 +135,7 @@ impl<P: Projective> Nurbs<P> {
 
     /// Whether all weights are the same number, so that the curve is polynomial.
     pub fn is_polynomial(&self) -> bool {
-        self.weights.windows(2).all(|pair| pair[0].to_bits() == pair[1].to_bits())
+        self.is_polynomial
     }
 
     /// The spline `Σ cₖ bₖ` of the control points without the weights; the curve itself if [`Self::is_polynomial`].
