@@ -33,7 +33,7 @@ pub fn probe_ends(curve: &Nurbs<DVec2>, display: &CurveDisplay) -> [DVec2; 2] {
     display.probe.unwrap_or_else(|| {
         let (low, high) = bounds(curve);
         let (middle, reach) =
-            (low.midpoint(high), 0.6 * (high.x - low.x).max(0.2 * (high.y - low.y)).max(1e-3));
+            (low.midpoint(high), 0.42 * (high.x - low.x).max(0.2 * (high.y - low.y)).max(1e-3));
         [middle - DVec2::X * reach, middle + DVec2::X * reach]
     })
 }
