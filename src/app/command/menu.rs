@@ -79,8 +79,10 @@ impl Command {
             | Self::ToggleHull
             | Self::ToggleCircle
             | Self::ToggleKnotLine
+            | Self::ToggleCharts
             | Self::ToggleBuilder
             | Self::ExportFrames
+            | Self::ExportChart
             | Self::StepperPlay
             | Self::StepForward
             | Self::StepBack
@@ -100,6 +102,7 @@ impl Command {
             | Self::SaveAs
             | Self::ExportFigure
             | Self::ExportFrames
+            | Self::ExportChart
             | Self::ImportMesh
             | Self::ExportMesh
             | Self::ImportData

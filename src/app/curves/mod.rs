@@ -15,6 +15,7 @@ mod weight_handles;
 
 use eframe::egui;
 
+use crate::app::chart_panel;
 use crate::app::command::Command;
 use crate::app::lab::Lab;
 use crate::app::workspace::{Room, Workspace};
@@ -44,7 +45,13 @@ impl Workspace for Curves {
                 .resizable(true)
                 .default_size(190.0)
                 .size_range(110.0..=420.0)
-                .show(ui, |ui| crate::app::knot_line::show(lab, ui));
+                .show(ui, |ui| {
+                    if chart_panel::is_open(lab) {
+                        chart_panel::show(lab, ui);
+                    } else {
+                        crate::app::knot_line::show(lab, ui);
+                    }
+                });
         }
     }
 
@@ -57,6 +64,12 @@ impl Workspace for Curves {
     }
 
     fn execute(&mut self, command: Command, lab: &mut Lab) -> bool {
+        if command == Command::ToggleCharts {
+            let open = !chart_panel::is_open(lab);
+            lab.view.panels.insert(crate::app::CHARTS.to_owned(), open);
+            lab.view.panels.insert(crate::app::KNOT_LINE.to_owned(), true);
+            return true;
+        }
         crate::app::knot_line::execute(command, lab) || self.canvas.execute(command, lab)
     }
 
