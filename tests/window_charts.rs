@@ -83,7 +83,7 @@ fn the_cursor_is_dragged_over_t_and_over_the_arc_length() {
     assert!((cursor(&window).x - at.x - 120.0).abs() < 2.0, "the handle is under the hand");
     assert_eq!(lab(&window).history.steps().0, 0, "the parameter is no part of the document");
 
-    click(&mut window, "Arc length");
+    click(&mut window, "Over the arc length");
     let length = ArcLength::new(&wave(), 1e-9).unwrap();
     let (at, before) = (cursor(&window), length.at(t(&window)).unwrap());
     drag(&mut window, at, vec2(-100.0, 0.0));
@@ -162,7 +162,10 @@ fn a_curve_of_ten_thousand_points_is_charted_without_its_length() {
     let space = SplineSpace::new(3, (0..count + 4).map(f64::from).collect()).unwrap();
     let points = (0..count).map(|k| DVec2::new(f64::from(k), f64::from(k % 5))).collect();
     let mut window = window(Nurbs::polynomial(space, points).unwrap());
-    assert!(window.get_by_label("Arc length").accesskit_node().is_disabled(), "the length is not measured");
+    assert!(
+        window.get_by_label("Over the arc length").accesskit_node().is_disabled(),
+        "the length is not measured"
+    );
     let (at, before) = (cursor(&window), t(&window));
     drag(&mut window, at, vec2(60.0, 0.0));
     assert!(t(&window) > before + 100.0, "the cursor works");

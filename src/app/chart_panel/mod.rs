@@ -3,8 +3,8 @@
 mod cache;
 
 use eframe::egui::{
-    Color32, CursorIcon, Label, PointerButton, Rect, Response, RichText, Role, Sense, Shape, Stroke, Ui,
-    WidgetInfo, pos2, vec2,
+    Align2, Button, Color32, CursorIcon, PointerButton, Pos2, Rect, Response, RichText, Role, Sense, Shape,
+    Stroke, Ui, WidgetInfo, pos2, vec2,
 };
 use glam::DVec2;
 
@@ -13,7 +13,7 @@ use crate::app::command::Command;
 use crate::app::knot_line::header::parameter;
 use crate::app::lab::{Hovered, Lab};
 use crate::app::number_text::short;
-use crate::app::painter::{color32, paint_picture, screen_from_world};
+use crate::app::painter::{color32, paint_note, paint_picture, screen_from_world};
 use crate::app::toolbar::button;
 use crate::core::bspline::Side;
 use crate::document::ObjectId;
@@ -99,7 +99,7 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
     };
     header(lab, ui, object, &samples);
     let rect = ui.available_rect_before_wrap();
-    if rect.width() < 120.0 || rect.height() < 70.0 {
+    if rect.width() < 120.0 || rect.height() < 56.0 {
         return;
     }
     let size = DVec2::new(f64::from(rect.width()), f64::from(rect.height()));
@@ -126,25 +126,24 @@ fn header(lab: &mut Lab, ui: &mut Ui, object: ObjectId, samples: &CurveSamples) 
             ui.selectable_value(&mut lab.charts.quantity, quantity, quantity.name());
         }
         ui.separator();
-        ui.label(RichText::new("over").weak());
-        ui.selectable_value(&mut lab.charts.over_length, false, "Parameter").on_hover_text("The parameter t");
-        let told = samples
-            .length()
-            .map(|length| format!("The length along the curve, {} in all", short(length.total())));
-        ui.add_enabled_ui(told.is_ok(), |ui| {
-            let hint = told.unwrap_or_else(|reason| format!("The arc length is {reason}"));
-            let choice = ui.selectable_value(&mut lab.charts.over_length, true, "Arc length");
-            choice.on_hover_text(&hint).on_disabled_hover_text(hint);
-        });
-        ui.separator();
-        button("Export chart…", Command::ExportChart, lab, ui);
-        let values = lab.parameter(object).and_then(|t| samples.sample(t, Side::Right));
-        if let Some(sample) = values.filter(|_| ui.available_width() > 90.0) {
-            let sign = lab.charts.quantity.sign();
-            let value = lab.charts.quantity.of(&sample);
-            let value = if value.is_finite() { short(value) } else { "undefined, the speed is 0".to_owned() };
-            ui.add(Label::new(RichText::new(format!("{sign}(t) = {value}")).weak()).truncate());
+        let told = samples.length();
+        let told =
+            told.map(|length| format!("Over the length along the curve, {} in all", short(length.total())));
+        let (can, over_length) = (told.is_ok(), lab.charts.over_length && told.is_ok());
+        let hint = told.unwrap_or_else(|reason| format!("The arc length is {reason}"));
+        for (length, word, name, hint) in [
+            (false, "over t", "Over the parameter", "Over the parameter t"),
+            (true, "over s", "Over the arc length", hint.as_str()),
+        ] {
+            let (enabled, on) = (can || !length, over_length == length);
+            let choice = ui.add_enabled(enabled, Button::selectable(on, word));
+            choice.widget_info(|| WidgetInfo::selected(Role::Button, enabled, on, name));
+            if choice.on_hover_text(hint).on_disabled_hover_text(hint).clicked() {
+                lab.charts.over_length = length;
+            }
         }
+        ui.separator();
+        button("Export…", Command::ExportChart, lab, ui);
     });
 }
 
@@ -213,6 +212,7 @@ fn cursor(lab: &mut Lab, ui: &mut Ui, samples: &CurveSamples, scene: &Scene) {
     ui.painter().vline(x, plot.y_range(), Stroke::new(1.4, accent));
     if let Some(at) = at {
         dot(ui, at, accent);
+        note(lab, ui, samples, scene, at);
     }
     let handle = Rect::from_center_size(pos2(x, plot.top() + 6.0), vec2(16.0, 16.0));
     let response = ui.interact(handle, ui.make_persistent_id("cursor of the chart"), Sense::click_and_drag());
@@ -228,6 +228,29 @@ fn cursor(lab: &mut Lab, ui: &mut Ui, samples: &CurveSamples, scene: &Scene) {
         lab.set_parameter(scene.object, t);
     }
     response.on_hover_cursor(CursorIcon::ResizeHorizontal);
+}
+
+/// The value at t, on the side of the dot where there is more room.
+fn note(lab: &Lab, ui: &Ui, samples: &CurveSamples, scene: &Scene, at: Pos2) {
+    let plot = scene.plot();
+    let sample = lab.parameter(scene.object).and_then(|t| samples.sample(t, Side::Right));
+    let Some(sample) = sample else { return };
+    let quantity = lab.charts.quantity;
+    let text = format!("{} = {}", quantity.sign(), short(quantity.of(&sample)));
+    let (align, shift) =
+        if at.x < plot.center().x { (Align2::LEFT_CENTER, 16.0) } else { (Align2::RIGHT_CENTER, -16.0) };
+    // Away from the edges, where it would be cut off.
+    let y = at.y.clamp(plot.top() + 10.0, (plot.bottom() - 10.0).max(plot.top() + 10.0));
+    let size = 12.0 * lab.theme.text_scale as f32;
+    paint_note(
+        ui.painter(),
+        pos2(at.x + shift, y),
+        align,
+        &text,
+        size,
+        lab.theme.accent,
+        lab.theme.background,
+    );
 }
 
 /// The chart that is shown, for a page of its own, and its table.

@@ -41,12 +41,15 @@ impl Workspace for Curves {
     fn panels(&mut self, lab: &mut Lab, ui: &mut egui::Ui) {
         let open = |name: &str| lab.view.panels.get(name).copied().unwrap_or(true);
         if open(crate::app::KNOT_LINE) {
+            let charts = chart_panel::is_open(lab);
+            // A chart needs room for its axes.
+            let least = if charts { 180.0 * lab.theme.text_scale as f32 } else { 110.0 };
             egui::Panel::bottom("knot line")
                 .resizable(true)
                 .default_size(190.0)
-                .size_range(110.0..=420.0)
+                .size_range(least..=420.0)
                 .show(ui, |ui| {
-                    if chart_panel::is_open(lab) {
+                    if charts {
                         chart_panel::show(lab, ui);
                     } else {
                         crate::app::knot_line::show(lab, ui);
