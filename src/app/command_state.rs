@@ -91,6 +91,15 @@ pub(crate) fn is_possible(command: Command, lab: &Lab) -> bool {
         | Command::CycleLabels
         | Command::ToggleHull
         | Command::ToggleCircle
+        | Command::ToggleFrame
+        | Command::ToggleHodograph
+        | Command::ToggleBezierPoints
+        | Command::ToggleBlossomLabels
+        | Command::ToggleDistanceTube
+        | Command::ToggleInflections
+        | Command::ToggleVertices
+        | Command::ToggleSymmetry
+        | Command::ToggleProbeLine
         | Command::StepperPlay
         | Command::StepForward
         | Command::StepBack
@@ -139,6 +148,15 @@ pub(crate) fn is_on(command: Command, lab: &Lab) -> Option<bool> {
         Command::ToggleConstruction => display(|display| display.construction),
         Command::ToggleHull => display(|display| display.hull),
         Command::ToggleCircle => display(|display| display.osculating_circle),
+        Command::ToggleFrame => display(|display| display.frame),
+        Command::ToggleHodograph => display(|display| display.hodograph),
+        Command::ToggleBezierPoints => display(|display| display.bezier_points),
+        Command::ToggleBlossomLabels => display(|display| display.blossom_labels),
+        Command::ToggleDistanceTube => display(|display| display.distance_tube),
+        Command::ToggleInflections => display(|display| display.inflections),
+        Command::ToggleVertices => display(|display| display.vertices),
+        Command::ToggleSymmetry => display(|display| display.symmetry),
+        Command::ToggleProbeLine => display(|display| display.probe_line),
         Command::ToggleLeftPanel => panel(LEFT_PANEL),
         Command::ToggleRightPanel => panel(RIGHT_PANEL),
         Command::ToggleKnotLine => panel(KNOT_LINE),

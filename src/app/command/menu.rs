@@ -78,6 +78,15 @@ impl Command {
             | Self::CycleLabels
             | Self::ToggleHull
             | Self::ToggleCircle
+            | Self::ToggleFrame
+            | Self::ToggleHodograph
+            | Self::ToggleBezierPoints
+            | Self::ToggleBlossomLabels
+            | Self::ToggleDistanceTube
+            | Self::ToggleInflections
+            | Self::ToggleVertices
+            | Self::ToggleSymmetry
+            | Self::ToggleProbeLine
             | Self::ToggleKnotLine
             | Self::ToggleCharts
             | Self::ToggleBuilder

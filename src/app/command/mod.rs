@@ -193,6 +193,24 @@ pub enum Command {
     ToggleHull,
     /// Circle of curvature on or off.
     ToggleCircle,
+    /// Frame at t on or off.
+    ToggleFrame,
+    /// Hodograph on or off.
+    ToggleHodograph,
+    /// Bezier points on or off.
+    ToggleBezierPoints,
+    /// Blossom labels on or off.
+    ToggleBlossomLabels,
+    /// Distance tube on or off.
+    ToggleDistanceTube,
+    /// Inflections on or off.
+    ToggleInflections,
+    /// Curvature extrema on or off.
+    ToggleVertices,
+    /// Symmetry on or off.
+    ToggleSymmetry,
+    /// Probe line on or off.
+    ToggleProbeLine,
     /// Objects and lessons on or off.
     ToggleLeftPanel,
     /// Inspector, stepper and lesson on or off.
@@ -231,7 +249,7 @@ pub enum Command {
 
 impl Command {
     /// All commands, in the order of menus, palette and sheet.
-    pub const ALL: [Self; 109] = [
+    pub const ALL: [Self; 118] = [
         Self::New,
         Self::Open,
         Self::Save,
@@ -324,6 +342,15 @@ impl Command {
         Self::CycleLabels,
         Self::ToggleHull,
         Self::ToggleCircle,
+        Self::ToggleFrame,
+        Self::ToggleHodograph,
+        Self::ToggleBezierPoints,
+        Self::ToggleBlossomLabels,
+        Self::ToggleDistanceTube,
+        Self::ToggleInflections,
+        Self::ToggleVertices,
+        Self::ToggleSymmetry,
+        Self::ToggleProbeLine,
         Self::ToggleLeftPanel,
         Self::ToggleRightPanel,
         Self::ToggleKnotLine,

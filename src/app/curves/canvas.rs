@@ -11,6 +11,7 @@ use crate::app::curves::draw_tool::Drawing;
 use crate::app::curves::gesture::Gesture;
 use crate::app::curves::handles;
 use crate::app::curves::hit::{Target, Trees, target_at};
+use crate::app::curves::probe_hands::ProbeHands;
 use crate::app::curves::step_hands::{self, StepHands};
 use crate::app::hands;
 use crate::app::lab::{DrawMode, Hovered, Lab, Tool};
@@ -34,6 +35,7 @@ pub(crate) struct Canvas {
     gesture: Option<Gesture>,
     drawing: Drawing,
     step_hands: StepHands,
+    probe_hands: ProbeHands,
     menu_target: Target,
     /// Where the menu was asked for.
     menu_place: DVec2,
@@ -83,7 +85,9 @@ impl Canvas {
             self.drawing.clear();
             lab.drawn = (0, 0);
         }
-        if !self.step_hands.drag(lab, &response, &viewport, rect, ui) {
+        if !self.step_hands.drag(lab, &response, &viewport, rect, ui)
+            && !self.probe_hands.drag(lab, &response, &viewport, rect, ui)
+        {
             self.use_hands(lab, &response, &viewport, rect, target, ui);
         }
         self.turn_wheel_on_weight(lab, target, ui);
@@ -92,6 +96,7 @@ impl Canvas {
         step_hands::hover(lab, target, pointer, &viewport, rect);
         self.paint(lab, &viewport, rect, pointer, ui);
         handles::announce(self.named(lab), &viewport, rect, ui);
+        ProbeHands::announce(lab, &viewport, rect, ui);
         self.point_cursor(lab, target, pointer, ui);
         if response.secondary_clicked() {
             self.menu_target = target;

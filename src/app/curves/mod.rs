@@ -9,6 +9,7 @@ mod draw_tool;
 mod gesture;
 mod handles;
 mod hit;
+mod probe_hands;
 mod step_hands;
 mod tools;
 mod weight_handles;
