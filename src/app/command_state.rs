@@ -2,6 +2,7 @@
 
 use eframe::egui::Context;
 
+use crate::app::chart_panel;
 use crate::app::command::Command;
 use crate::app::lab::{Lab, Tool};
 use crate::app::surfaces::commands as surfaces;
@@ -42,7 +43,7 @@ pub(crate) fn is_possible(command: Command, lab: &Lab) -> bool {
     }
     match command {
         Command::BackToExample => lab.lesson.is_some(),
-        Command::ExportFrames => lab.curve().is_some(),
+        Command::ExportFrames | Command::ExportChart | Command::ToggleCharts => lab.curve().is_some(),
         Command::Undo => lab.undo_name().is_some(),
         Command::Redo => lab.redo_name().is_some(),
         Command::ExportFigure => !lab.history.document().is_empty(),
@@ -159,6 +160,7 @@ pub(crate) fn is_on(command: Command, lab: &Lab) -> Option<bool> {
         Command::ToggleLeftPanel => panel(LEFT_PANEL),
         Command::ToggleRightPanel => panel(RIGHT_PANEL),
         Command::ToggleKnotLine => panel(KNOT_LINE),
+        Command::ToggleCharts => chart_panel::is_open(lab),
         Command::ToggleKeepCurve => lab.knots.keep_curve,
         Command::ToggleBuilder => lab.knots.builder.is_some(),
         Command::LookLight => lab.theme.name == "light",

@@ -95,6 +95,7 @@ impl Command {
             Self::ToggleLeftPanel => (NONE, Key::F2),
             Self::ToggleRightPanel => (NONE, Key::F3),
             Self::ToggleKnotLine => (NONE, Key::F4),
+            Self::ToggleCharts => (NONE, Key::F9),
             Self::LookLight => (NONE, Key::F6),
             Self::LookDark => (NONE, Key::F7),
             Self::LookPresentation => (NONE, Key::F8),
@@ -110,6 +111,7 @@ impl Command {
             Self::ShortcutSheet => (NONE, Key::F1),
             Self::ImportMesh
             | Self::ExportMesh
+            | Self::ExportChart
             | Self::RefineU
             | Self::RefineV
             | Self::ElevateU

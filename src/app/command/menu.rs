@@ -88,8 +88,10 @@ impl Command {
             | Self::ToggleSymmetry
             | Self::ToggleProbeLine
             | Self::ToggleKnotLine
+            | Self::ToggleCharts
             | Self::ToggleBuilder
             | Self::ExportFrames
+            | Self::ExportChart
             | Self::StepperPlay
             | Self::StepForward
             | Self::StepBack
@@ -109,6 +111,7 @@ impl Command {
             | Self::SaveAs
             | Self::ExportFigure
             | Self::ExportFrames
+            | Self::ExportChart
             | Self::ImportMesh
             | Self::ExportMesh
             | Self::ImportData

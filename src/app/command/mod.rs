@@ -21,6 +21,8 @@ pub enum Command {
     ExportFigure,
     /// Writes all frames of the algorithm that is stepped through.
     ExportFrames,
+    /// Writes the chart of the selected curve.
+    ExportChart,
     /// Adds the mesh of an OBJ file.
     ImportMesh,
     /// Writes the selected mesh at the level shown.
@@ -215,6 +217,8 @@ pub enum Command {
     ToggleRightPanel,
     /// Knot line on or off.
     ToggleKnotLine,
+    /// Charts in place of the knot line.
+    ToggleCharts,
     /// Light look.
     LookLight,
     /// Dark look.
@@ -245,13 +249,14 @@ pub enum Command {
 
 impl Command {
     /// All commands, in the order of menus, palette and sheet.
-    pub const ALL: [Self; 116] = [
+    pub const ALL: [Self; 118] = [
         Self::New,
         Self::Open,
         Self::Save,
         Self::SaveAs,
         Self::ExportFigure,
         Self::ExportFrames,
+        Self::ExportChart,
         Self::ImportMesh,
         Self::ExportMesh,
         Self::ImportData,
@@ -349,6 +354,7 @@ impl Command {
         Self::ToggleLeftPanel,
         Self::ToggleRightPanel,
         Self::ToggleKnotLine,
+        Self::ToggleCharts,
         Self::LookLight,
         Self::LookDark,
         Self::LookPresentation,

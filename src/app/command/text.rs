@@ -15,6 +15,10 @@ impl Command {
                 "Export frames…",
                 "Write every step of the algorithm: numbered SVG or PNG, one PDF, or a TikZ slide with overlays",
             ),
+            Self::ExportChart => (
+                "Export chart…",
+                "Write the chart of the selected curve as SVG, PDF or PNG, or its numbers as CSV",
+            ),
             Self::ImportData => {
                 ("Import data…", "Read a table of x and y, with weights if wanted, from a CSV file")
             }
@@ -185,6 +189,7 @@ impl Command {
             Self::ToggleLeftPanel => ("Objects and lessons", "Show or hide the left panel"),
             Self::ToggleRightPanel => ("Inspector and stepper", "Show or hide the right panel"),
             Self::ToggleKnotLine => ("Knot line", "Show or hide the knot line"),
+            Self::ToggleCharts => ("Charts", "Curvature, speed, x and y in place of the knot line"),
             Self::LookLight => ("Light look", "Dark ink on a light ground"),
             Self::LookDark => ("Dark look", "Light ink on a dark ground"),
             Self::LookPresentation => ("Presentation look", "Large type and thick lines for a projector"),
