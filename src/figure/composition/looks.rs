@@ -309,7 +309,7 @@ pub(super) fn hodograph(
     if let Ok(at) = curve.evaluate(parameter) {
         items.extend(arrow(at, at + now * scale, 8.0 * pt, &stroke));
     }
-    let words = format!("derivative, 1 unit = {}", short_number(scale.recip()));
+    let words = format!("derivative / {}", short_number(scale.recip()));
     items.push(text(bottom, DVec2::new(5.0, 5.0), words, theme.text, theme));
     items
 }
