@@ -29,6 +29,9 @@ const PAGE: DVec2 = DVec2::new(480.0, 300.0);
 /// The most B-splines that an exported chart names.
 const LEGEND: usize = 10;
 
+/// In a narrower panel the choices stand closer.
+const ROOMY: f32 = 760.0;
+
 /// What the charts show.
 #[derive(Debug, Default)]
 pub struct Charts {
@@ -120,6 +123,10 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
 
 fn header(lab: &mut Lab, ui: &mut Ui, object: ObjectId, samples: &CurveSamples) {
     ui.horizontal_wrapped(|ui| {
+        if ui.available_width() < ROOMY * lab.theme.text_scale as f32 {
+            ui.spacing_mut().button_padding.x = 4.0;
+            ui.spacing_mut().item_spacing.x = 3.0;
+        }
         tabs(lab, ui);
         if let Some((curve, t)) = lab.curve().cloned().zip(lab.parameter(object)) {
             parameter(lab, ui, object, &curve, t);
