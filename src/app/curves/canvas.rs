@@ -75,15 +75,17 @@ impl Canvas {
         hands::move_camera(&mut lab.view.camera, &mut self.panning, busy, &response, rect, ui);
         let viewport = viewport(lab);
         let pointer = ui.input(|input| input.pointer.hover_pos()).filter(|_| response.contains_pointer());
+        let was_drawing = lab.tool == Tool::Draw;
         // What is dragged stays the target, and nothing has to be searched.
         let target = match (&self.gesture, pointer) {
+            _ if was_drawing => Target::Nothing,
             (Some(gesture), _) => gesture.target(),
             (None, Some(pointer)) => target_at(lab, &mut self.trees, &viewport, rect, pointer),
             (None, None) => Target::Nothing,
         };
-        if lab.tool != Tool::Draw {
-            self.drawing.clear();
-            lab.drawn = (0, 0);
+        if !was_drawing {
+            let held = ui.input(|input| input.pointer.primary_down());
+            self.drawing.rest(lab, held);
         }
         if !self.step_hands.drag(lab, &response, &viewport, rect, ui)
             && !self.probe_hands.drag(lab, &response, &viewport, rect, ui)
@@ -107,7 +109,8 @@ impl Canvas {
                 lab.selection.object = Some(object);
             }
         }
-        if lab.tool == Tool::Select {
+        // The right click that ends a drawing asks for no menu.
+        if !was_drawing && lab.tool == Tool::Select {
             let (target, place) = (self.menu_target, self.menu_place);
             response.context_menu(|ui| context_menu::show(target, place, lab, ui));
         }

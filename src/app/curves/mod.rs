@@ -4,6 +4,7 @@ mod align;
 mod canvas;
 mod commands;
 mod context_menu;
+mod draw_preview;
 mod draw_shapes;
 mod draw_tool;
 mod gesture;

@@ -6,9 +6,9 @@
 use glam::DVec2;
 
 use crate::core::bspline::SplineError;
-use crate::core::point::Point as _;
 use crate::core::rational_bezier::Projective as _;
 use crate::core::spline_curve::{Hyperplane, LineIntersection, Nurbs, variation};
+use crate::core::triangular_scheme::collapse_both;
 use crate::document::CurveDisplay;
 use crate::figure::composition::looks::{bounds, text, too_many};
 use crate::figure::picture::{Item, Marker, MarkerShape, Path, Stroke, Viewport};
@@ -128,20 +128,16 @@ fn brackets(curve: &Nurbs<DVec2>, ends: [DVec2; 2], theme: &Theme) -> Vec<Item> 
                 items.push(text(DVec2::new(low.x, high.y), offset, (depth + 1).to_string(), tint, theme));
             }
         }
-        level = level.iter().flat_map(halves).collect();
+        level = level.iter().flat_map(|piece| halves(piece)).collect();
     }
     items
 }
 
 /// Both halves of a Bezier piece, by de Casteljau's algorithm.
-fn halves(piece: &Vec<glam::DVec3>) -> [Vec<glam::DVec3>; 2] {
-    let (mut left, mut right, mut row) = (vec![piece[0]], vec![piece[piece.len() - 1]], piece.clone());
-    while row.len() > 1 {
-        row = row.windows(2).map(|pair| pair[0].mix(pair[1], 0.5)).collect();
-        left.push(row[0]);
-        right.push(row[row.len() - 1]);
-    }
-    right.reverse();
+fn halves(piece: &[glam::DVec3]) -> [Vec<glam::DVec3>; 2] {
+    let mut right = piece.to_vec();
+    let mut left = right.clone();
+    collapse_both(&mut right, 0.5, &mut left);
     [left, right]
 }
 
