@@ -127,7 +127,9 @@ fn a_click_in_the_chart_sets_t_and_another_quantity_keeps_it() {
     window.run_steps(3);
     let clicked = t(&window);
     assert!((cursor(&window).x - at.x).abs() < 2.0, "the cursor comes to the click");
-    for (name, quantity) in [("Speed", Quantity::Speed), ("Curvature", Quantity::Curvature)] {
+    let choices =
+        [("Speed", Quantity::Speed), ("B-splines", Quantity::Basis), ("Curvature", Quantity::Curvature)];
+    for (name, quantity) in choices {
         let chart = window.get_by_label("Chart").rect();
         // The inspector has lines of the same name.
         let choice =
@@ -166,6 +168,7 @@ fn a_curve_of_ten_thousand_points_is_charted_without_its_length() {
         window.get_by_label("Over the arc length").accesskit_node().is_disabled(),
         "the length is not measured"
     );
+    assert!(window.get_by_label("B-splines").accesskit_node().is_disabled(), "they would be a grey band");
     let (at, before) = (cursor(&window), t(&window));
     drag(&mut window, at, vec2(60.0, 0.0));
     assert!(t(&window) > before + 100.0, "the cursor works");

@@ -1,4 +1,4 @@
-//! Curvature, speed and coordinates of a curve over its parameter or its arc length, as a chart and as a table.
+//! Curvature, speed, coordinates and B-splines of a curve over its parameter or its arc length, as a chart and as a table.
 
 use glam::DVec2;
 
@@ -6,12 +6,14 @@ use crate::core::bspline::Side;
 use crate::core::point::Point as _;
 use crate::core::spline_curve::{ArcLength, Nurbs};
 use crate::figure::chart::{Axis, Chart, Series, SeriesStyle};
-use crate::figure::picture::Color;
+use crate::figure::theme::Theme;
 
 /// Samples of one knot interval, and about how many there are at most of all together.
 const SAMPLES: (usize, usize) = (48, 6000);
 /// Curves with more control points are not measured along: it would take longer than a frame.
 pub const MANY_FOR_LENGTH: usize = 2000;
+/// More B-splines than this are not drawn: they would be a grey band.
+pub const MANY_FUNCTIONS: usize = 300;
 /// The error of lengths, as a part of the size of the control polygon.
 const LENGTH_TOLERANCE: f64 = 1e-8;
 
@@ -27,11 +29,13 @@ pub enum Quantity {
     X,
     /// The second coordinate.
     Y,
+    /// The B-splines, or the rational basis functions `wₖ bₖ/q`.
+    Basis,
 }
 
 impl Quantity {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::Curvature, Self::Speed, Self::X, Self::Y];
+    pub const ALL: [Self; 5] = [Self::Curvature, Self::Speed, Self::X, Self::Y, Self::Basis];
 
     /// The word for it.
     pub const fn name(self) -> &'static str {
@@ -40,6 +44,7 @@ impl Quantity {
             Self::Speed => "Speed",
             Self::X => "x",
             Self::Y => "y",
+            Self::Basis => "B-splines",
         }
     }
 
@@ -50,16 +55,18 @@ impl Quantity {
             Self::Speed => "|r′|",
             Self::X => "x",
             Self::Y => "y",
+            Self::Basis => "b",
         }
     }
 
-    /// Its value at a sample.
+    /// Its value at a sample; of the B-splines, which are many, not a number.
     pub fn of(self, sample: &Sample) -> f64 {
         match self {
             Self::Curvature => sample.curvature,
             Self::Speed => sample.speed,
             Self::X => sample.point.x,
             Self::Y => sample.point.y,
+            Self::Basis => f64::NAN,
         }
     }
 }
@@ -132,60 +139,134 @@ impl CurveSamples {
         self.length.as_ref().map_err(String::as_str)
     }
 
-    /// The chart of `quantity` of the curve `name`, over the arc length if that is wanted and measured.
-    pub fn chart(&self, quantity: Quantity, over_length: bool, name: &str, color: Color) -> Chart {
+    /// Whether the B-splines are few enough to be seen.
+    pub fn has_basis(&self) -> bool {
+        self.curve.points().len() <= MANY_FUNCTIONS
+    }
+
+    /// The chart of `quantity` of the curve `name`, over the arc length if that is wanted and measured; the curve has the colour `color` of the
+    /// palette, B-splines those of their control points.
+    pub fn chart(
+        &self,
+        quantity: Quantity,
+        over_length: bool,
+        name: &str,
+        color: usize,
+        theme: &Theme,
+    ) -> Chart {
         let over_length = over_length && self.length.is_ok();
-        let mut points: Vec<DVec2> = Vec::new();
-        for part in &self.parts {
-            let place = |sample: &Sample| {
-                let x = if over_length { sample.length.unwrap_or(f64::NAN) } else { sample.parameter };
-                DVec2::new(x, quantity.of(sample))
-            };
-            let part: Vec<DVec2> = part.iter().map(place).collect();
-            if let (Some(last), Some(first)) = (points.last(), part.first())
-                && (last.y - first.y).abs() > 1e-9 * last.y.abs().max(first.y.abs())
-            {
-                // A jump is no part of the line.
-                points.push(DVec2::NAN);
-            }
-            points.extend(part);
-        }
+        let x = |sample: &Sample| {
+            if over_length { sample.length.unwrap_or(f64::NAN) } else { sample.parameter }
+        };
+        let line = |color, points| Series { name: String::new(), color, points, style: SeriesStyle::Line };
+        let (series, y) = if quantity == Quantity::Basis {
+            let lines = self.basis_lines(x).into_iter().enumerate();
+            let series = lines.map(|(k, points)| line(theme.basis_color(k), points));
+            (series.collect(), Some((0.0, 1.02)))
+        } else {
+            let points = self.line(|sample| DVec2::new(x(sample), quantity.of(sample)));
+            let range = level_range(&points);
+            (vec![line(theme.palette[color % theme.palette.len()], points)], range)
+        };
         let (low, high) = if over_length {
             (0.0, self.length.as_ref().map_or(1.0, ArcLength::total))
         } else {
             self.curve.space().parameter_interval()
         };
+        let label = if over_length { "arc length s" } else { "parameter t" }.to_owned();
         Chart {
             title: String::new(),
-            x: Axis {
-                label: if over_length { "arc length s" } else { "parameter t" }.to_owned(),
-                range: Some((low, high)),
-                ..Axis::default()
-            },
-            y: Axis {
-                label: format!("{} of {name}", quantity.name()),
-                range: level_range(&points),
-                ..Axis::default()
-            },
-            series: vec![Series { name: String::new(), color, points, style: SeriesStyle::Line }],
+            x: Axis { label, range: Some((low, high)), ..Axis::default() },
+            y: Axis { label: format!("{} of {name}", quantity.name()), range: y, ..Axis::default() },
+            series,
         }
     }
 
-    /// A table with the columns t, s if it is measured, x, y, speed, curvature; commas separate, points are decimal signs. A knot has two
-    /// lines, the limits from both sides.
-    pub fn csv(&self) -> String {
-        let has_length = self.length.is_ok();
-        let mut text =
-            String::from(if has_length { "t,s,x,y,speed,curvature\n" } else { "t,x,y,speed,curvature\n" });
-        for sample in self.parts.iter().flatten() {
-            let Sample { parameter, length, point, speed, curvature } = sample;
-            text.push_str(&format!("{parameter:?},"));
-            if let Some(length) = length.filter(|_| has_length) {
-                text.push_str(&format!("{length:?},"));
+    /// One line through all samples, interrupted where its height jumps.
+    fn line(&self, place: impl Fn(&Sample) -> DVec2) -> Vec<DVec2> {
+        let mut points: Vec<DVec2> = Vec::new();
+        for part in &self.parts {
+            if let (Some(last), Some(first)) = (points.last(), part.first().map(&place))
+                && (last.y - first.y).abs() > 1e-9 * last.y.abs().max(first.y.abs())
+            {
+                points.push(DVec2::NAN);
             }
-            // Where there is no curvature the field stays empty.
-            let curvature = if curvature.is_finite() { format!("{curvature:?}") } else { String::new() };
-            text.push_str(&format!("{:?},{:?},{speed:?},{curvature}\n", point.x, point.y));
+            points.extend(part.iter().map(&place));
+        }
+        points
+    }
+
+    /// Control points and values of the functions over the knot interval of `sample`, which starts at `start`; at its right end too.
+    fn basis_values(&self, start: f64, sample: &Sample) -> Vec<(usize, f64)> {
+        let (space, weights) = (self.curve.space(), self.curve.weights());
+        let mut values = vec![0.0; space.degree() + 1];
+        let Ok(span) = space.span(start) else { return Vec::new() };
+        let Ok(first) = space.write_active_basis(sample.parameter, &mut values) else { return Vec::new() };
+        let found: Vec<(usize, f64)> = values
+            .iter()
+            .enumerate()
+            .map(|(j, value)| (space.coefficient_index(first + j), value))
+            .map(|(k, value)| (k, value * weights[k]))
+            .collect();
+        let sum: f64 = found.iter().map(|(_, value)| value).sum();
+        let mut active: Vec<usize> =
+            (span - space.degree()..=span).map(|k| space.coefficient_index(k)).collect();
+        active.sort_unstable();
+        active.dedup();
+        let value_of =
+            |k: usize| found.iter().filter(|(other, _)| *other == k).map(|(_, value)| value).sum::<f64>();
+        active.into_iter().map(|k| (k, value_of(k) / sum)).collect()
+    }
+
+    /// For each control point the line of its function, where that is not 0. None if they are too many.
+    fn basis_lines(&self, x: impl Fn(&Sample) -> f64) -> Vec<Vec<DVec2>> {
+        let mut lines: Vec<Vec<DVec2>> = vec![Vec::new(); self.curve.points().len()];
+        let mut last_part: Vec<Option<usize>> = vec![None; lines.len()];
+        for (number, part) in self.parts.iter().enumerate().filter(|_| self.has_basis()) {
+            for sample in part {
+                for (k, value) in self.basis_values(part[0].parameter, sample) {
+                    if last_part[k].is_some_and(|last| last + 1 < number) {
+                        lines[k].push(DVec2::NAN);
+                    }
+                    last_part[k] = Some(number);
+                    lines[k].push(DVec2::new(x(sample), value));
+                }
+            }
+        }
+        lines
+    }
+
+    /// A table; commas separate, points are decimal signs. Its columns are t, s if that is measured, and x, y, speed, curvature, or the B-splines. A knot
+    /// has two lines, the limits from both sides.
+    pub fn csv(&self, quantity: Quantity) -> String {
+        let has_length = self.length.is_ok();
+        let mut text = String::from(if has_length { "t,s" } else { "t" });
+        let count = if self.has_basis() { self.curve.points().len() } else { 0 };
+        if quantity == Quantity::Basis {
+            (0..count).for_each(|k| text.push_str(&format!(",b_{k}")));
+        } else {
+            text.push_str(",x,y,speed,curvature");
+        }
+        text.push('\n');
+        for (start, sample) in self.parts.iter().flat_map(|part| part.iter().map(|s| (part[0].parameter, s)))
+        {
+            let Sample { parameter, length, point, speed, curvature } = sample;
+            text.push_str(&format!("{parameter:?}"));
+            if let Some(length) = length.filter(|_| has_length) {
+                text.push_str(&format!(",{length:?}"));
+            }
+            if quantity == Quantity::Basis {
+                let mut row = vec![0.0; count];
+                if count > 0 {
+                    self.basis_values(start, sample).into_iter().for_each(|(k, value)| row[k] = value);
+                }
+                row.iter().for_each(|value| text.push_str(&format!(",{value:?}")));
+            } else {
+                // Where there is no curvature the field stays empty.
+                let curvature = if curvature.is_finite() { format!("{curvature:?}") } else { String::new() };
+                text.push_str(&format!(",{:?},{:?},{speed:?},{curvature}", point.x, point.y));
+            }
+            text.push('\n');
         }
         text
     }
@@ -234,7 +315,7 @@ mod tests {
         for sample in samples.parts().iter().flatten() {
             assert!((sample.curvature - 0.5).abs() < 1e-9, "{sample:?}");
         }
-        let chart = samples.chart(Quantity::Curvature, true, "C", Color::hex(0));
+        let chart = samples.chart(Quantity::Curvature, true, "C", 0, &Theme::light());
         let (_, end) = chart.x.range.unwrap();
         assert!((end - 4.0 * std::f64::consts::PI).abs() < 1e-6, "length {end}");
         let last = samples.parts().last().unwrap().last().unwrap();
@@ -247,12 +328,16 @@ mod tests {
         let points = [(0.0, 0.0), (1.0, 2.0), (3.0, 2.0), (4.0, -1.0)].map(DVec2::from).to_vec();
         let samples = CurveSamples::new(&Nurbs::polynomial(space, points).unwrap());
         let gaps = |quantity| {
-            let chart = samples.chart(quantity, false, "C", Color::hex(0));
+            let chart = samples.chart(quantity, false, "C", 0, &Theme::light());
             chart.series[0].points.iter().filter(|point| point.x.is_nan()).count()
         };
         assert_eq!((gaps(Quantity::Curvature), gaps(Quantity::Speed), gaps(Quantity::X)), (1, 0, 0), "jumps");
-        let at_knot: Vec<String> =
-            samples.csv().lines().filter(|line| line.starts_with("1.0,")).map(str::to_owned).collect();
+        let at_knot: Vec<String> = samples
+            .csv(Quantity::X)
+            .lines()
+            .filter(|line| line.starts_with("1.0,"))
+            .map(str::to_owned)
+            .collect();
         assert_eq!(at_knot.len(), 2, "limits from both sides: {at_knot:?}");
     }
 
@@ -263,8 +348,27 @@ mod tests {
         let points = (0..count).map(|k| DVec2::new(f64::from(k), f64::from(k % 3))).collect();
         let samples = CurveSamples::new(&Nurbs::polynomial(space, points).unwrap());
         assert!(samples.length().unwrap_err().contains("2000"), "a sentence with the limit");
-        let chart = samples.chart(Quantity::Speed, true, "C", Color::hex(0));
+        let chart = samples.chart(Quantity::Speed, true, "C", 0, &Theme::light());
         assert_eq!(chart.x.label, "parameter t", "over t instead");
         assert!(chart.series[0].points.len() < 40_000, "{} points", chart.series[0].points.len());
+    }
+
+    #[test]
+    fn basis_functions_are_a_partition_of_one_in_chart_and_table() {
+        let closed = SplineSpace::periodic(2, 5.0, (0..5).map(f64::from).collect()).unwrap();
+        let open = SplineSpace::new(2, vec![-1.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 3.0]).unwrap();
+        for space in [open, closed] {
+            let points: Vec<DVec2> = (0..space.dimension()).map(|k| DVec2::new(k as f64, 1.0)).collect();
+            let weights = (0..points.len()).map(|k| 1.0 + k as f64).collect();
+            let samples = CurveSamples::new(&Nurbs::new(space, points.clone(), weights).unwrap());
+            let chart = samples.chart(Quantity::Basis, false, "C", 0, &Theme::light());
+            assert_eq!(chart.series.len(), points.len(), "one for each control point");
+            let table = samples.csv(Quantity::Basis);
+            for line in table.lines().skip(1) {
+                let values: Vec<f64> = line.split(',').skip(2).map(|field| field.parse().unwrap()).collect();
+                let sum: f64 = values.iter().sum();
+                assert!(values.len() == points.len() && (sum - 1.0).abs() < 1e-12, "{line}");
+            }
+        }
     }
 }

@@ -18,13 +18,19 @@ use crate::app::toolbar::button;
 use crate::core::bspline::Side;
 use crate::document::ObjectId;
 use crate::figure::chart::{Chart, ChartArea};
-use crate::figure::curve_chart::{CurveSamples, Quantity};
+use crate::figure::curve_chart::{CurveSamples, MANY_FUNCTIONS, Quantity};
 use crate::figure::picture::Viewport;
 
 pub use cache::ChartCache;
 
 /// Size of an exported chart in pt.
 const PAGE: DVec2 = DVec2::new(480.0, 300.0);
+
+/// The most B-splines that an exported chart names.
+const LEGEND: usize = 10;
+
+/// In a narrower panel the choices stand closer.
+const ROOMY: f32 = 760.0;
 
 /// What the charts show.
 #[derive(Debug, Default)]
@@ -89,7 +95,7 @@ impl Scene {
 pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
     let object = lab.selection.object.and_then(|id| {
         let found = lab.history.document().object(id)?;
-        let color = lab.theme.palette[found.curve_display()?.color % lab.theme.palette.len()];
+        let color = found.curve_display()?.color;
         Some((id, lab.charts.cache.samples(found)?, found.name.clone(), color))
     });
     let Some((object, samples, name, color)) = object else {
@@ -103,7 +109,7 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
         return;
     }
     let size = DVec2::new(f64::from(rect.width()), f64::from(rect.height()));
-    let chart = samples.chart(lab.charts.quantity, lab.charts.over_length, &name, color);
+    let chart = samples.chart(lab.charts.quantity, lab.charts.over_length, &name, color, &lab.theme);
     let over_length = lab.charts.over_length && samples.length().is_ok();
     let area = chart.area(&lab.theme, size);
     let scene = Scene { object, chart, area, view: Chart::view(size), rect, over_length };
@@ -117,13 +123,26 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
 
 fn header(lab: &mut Lab, ui: &mut Ui, object: ObjectId, samples: &CurveSamples) {
     ui.horizontal_wrapped(|ui| {
+        if ui.available_width() < ROOMY * lab.theme.text_scale as f32 {
+            ui.spacing_mut().button_padding.x = 4.0;
+            ui.spacing_mut().item_spacing.x = 3.0;
+        }
         tabs(lab, ui);
         if let Some((curve, t)) = lab.curve().cloned().zip(lab.parameter(object)) {
             parameter(lab, ui, object, &curve, t);
         }
         ui.separator();
+        ui.spacing_mut().item_spacing.x = 3.0;
         for quantity in Quantity::ALL {
-            ui.selectable_value(&mut lab.charts.quantity, quantity, quantity.name());
+            let can = quantity != Quantity::Basis || samples.has_basis();
+            let choice = Button::selectable(lab.charts.quantity == quantity, quantity.name());
+            let choice = ui.add_enabled(can, choice);
+            if choice
+                .on_disabled_hover_text(format!("Drawn for up to {MANY_FUNCTIONS} control points"))
+                .clicked()
+            {
+                lab.charts.quantity = quantity;
+            }
         }
         ui.separator();
         let told = samples.length();
@@ -142,7 +161,6 @@ fn header(lab: &mut Lab, ui: &mut Ui, object: ObjectId, samples: &CurveSamples) 
                 lab.charts.over_length = length;
             }
         }
-        ui.separator();
         button("Export…", Command::ExportChart, lab, ui);
     });
 }
@@ -236,11 +254,14 @@ fn note(lab: &Lab, ui: &Ui, samples: &CurveSamples, scene: &Scene, at: Pos2) {
     let sample = lab.parameter(scene.object).and_then(|t| samples.sample(t, Side::Right));
     let Some(sample) = sample else { return };
     let quantity = lab.charts.quantity;
+    if quantity == Quantity::Basis {
+        return;
+    }
     let text = format!("{} = {}", quantity.sign(), short(quantity.of(&sample)));
     let (align, shift) =
         if at.x < plot.center().x { (Align2::LEFT_CENTER, 16.0) } else { (Align2::RIGHT_CENTER, -16.0) };
-    // Away from the edges, where it would be cut off.
-    let y = at.y.clamp(plot.top() + 10.0, (plot.bottom() - 10.0).max(plot.top() + 10.0));
+    // Away from the dot, where the line is not.
+    let y = if at.y > plot.center().y { plot.top() + 12.0 } else { plot.bottom() - 12.0 };
     let size = 12.0 * lab.theme.text_scale as f32;
     paint_note(
         ui.painter(),
@@ -257,7 +278,14 @@ fn note(lab: &Lab, ui: &Ui, samples: &CurveSamples, scene: &Scene, at: Pos2) {
 pub(crate) fn page(lab: &Lab) -> Option<(Chart, DVec2, String)> {
     let object = lab.history.document().object(lab.selection.object?)?;
     let samples = lab.charts.cache.samples(object)?;
-    let color = lab.theme.palette[object.curve_display()?.color % lab.theme.palette.len()];
-    let chart = samples.chart(lab.charts.quantity, lab.charts.over_length, &object.name, color);
-    Some((chart, PAGE, samples.csv()))
+    let color = object.curve_display()?.color;
+    let quantity = lab.charts.quantity;
+    let mut chart = samples.chart(quantity, lab.charts.over_length, &object.name, color, &lab.theme);
+    // On paper nothing but the legend tells which is which.
+    if quantity == Quantity::Basis && chart.series.len() <= LEGEND {
+        for (k, series) in chart.series.iter_mut().enumerate() {
+            series.name = format!("$b_{{{k}}}$");
+        }
+    }
+    Some((chart, PAGE, samples.csv(quantity)))
 }
