@@ -7,6 +7,7 @@ use std::rc::Rc;
 
 use glam::DVec2;
 
+use crate::app::chart_panel::Charts;
 use crate::app::command::Command;
 use crate::app::sheet::{Sheet, Shelf};
 use crate::app::story_cache::StoryCache;
@@ -206,6 +207,8 @@ pub struct Lab {
     pub stepper: StepperState,
     /// The knot line.
     pub knots: KnotHands,
+    /// The charts.
+    pub charts: Charts,
     /// The open lesson, if any.
     pub lesson: Option<LessonState>,
     /// What the last operation did to the shape, as a sentence for the status line.
@@ -250,6 +253,7 @@ impl Lab {
             side: SidePage::Inspector,
             stepper: StepperState::default(),
             knots: KnotHands::default(),
+            charts: Charts::default(),
             lesson: None,
             shape_note: None,
             shape: ShapeChange::None,

@@ -93,9 +93,19 @@ impl Command {
             Self::CycleLabels => (NONE, Key::L),
             Self::ToggleHull => (NONE, Key::H),
             Self::ToggleCircle => (NONE, Key::O),
+            Self::ToggleFrame => (Modifiers::SHIFT, Key::T),
+            Self::ToggleHodograph => (Modifiers::SHIFT, Key::H),
+            Self::ToggleBezierPoints => (Modifiers::SHIFT, Key::Z),
+            Self::ToggleBlossomLabels => (Modifiers::SHIFT, Key::L),
+            Self::ToggleDistanceTube => (Modifiers::SHIFT, Key::D),
+            Self::ToggleInflections => (Modifiers::SHIFT, Key::I),
+            Self::ToggleVertices => (Modifiers::SHIFT, Key::V),
+            Self::ToggleSymmetry => (Modifiers::SHIFT, Key::S),
+            Self::ToggleProbeLine => (Modifiers::SHIFT, Key::P),
             Self::ToggleLeftPanel => (NONE, Key::F2),
             Self::ToggleRightPanel => (NONE, Key::F3),
             Self::ToggleKnotLine => (NONE, Key::F4),
+            Self::ToggleCharts => (NONE, Key::F9),
             Self::LookLight => (NONE, Key::F6),
             Self::LookDark => (NONE, Key::F7),
             Self::LookPresentation => (NONE, Key::F8),
@@ -111,6 +121,7 @@ impl Command {
             Self::ShortcutSheet => (NONE, Key::F1),
             Self::ImportMesh
             | Self::ExportMesh
+            | Self::ExportChart
             | Self::RefineU
             | Self::RefineV
             | Self::ElevateU

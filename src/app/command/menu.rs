@@ -78,9 +78,20 @@ impl Command {
             | Self::CycleLabels
             | Self::ToggleHull
             | Self::ToggleCircle
+            | Self::ToggleFrame
+            | Self::ToggleHodograph
+            | Self::ToggleBezierPoints
+            | Self::ToggleBlossomLabels
+            | Self::ToggleDistanceTube
+            | Self::ToggleInflections
+            | Self::ToggleVertices
+            | Self::ToggleSymmetry
+            | Self::ToggleProbeLine
             | Self::ToggleKnotLine
+            | Self::ToggleCharts
             | Self::ToggleBuilder
             | Self::ExportFrames
+            | Self::ExportChart
             | Self::StepperPlay
             | Self::StepForward
             | Self::StepBack
@@ -100,6 +111,7 @@ impl Command {
             | Self::SaveAs
             | Self::ExportFigure
             | Self::ExportFrames
+            | Self::ExportChart
             | Self::ImportMesh
             | Self::ExportMesh
             | Self::ImportData

@@ -21,6 +21,8 @@ pub enum Command {
     ExportFigure,
     /// Writes all frames of the algorithm that is stepped through.
     ExportFrames,
+    /// Writes the chart of the selected curve.
+    ExportChart,
     /// Adds the mesh of an OBJ file.
     ImportMesh,
     /// Writes the selected mesh at the level shown.
@@ -209,12 +211,32 @@ pub enum Command {
     ToggleHull,
     /// Circle of curvature on or off.
     ToggleCircle,
+    /// Frame at t on or off.
+    ToggleFrame,
+    /// Hodograph on or off.
+    ToggleHodograph,
+    /// Bezier points on or off.
+    ToggleBezierPoints,
+    /// Blossom labels on or off.
+    ToggleBlossomLabels,
+    /// Distance tube on or off.
+    ToggleDistanceTube,
+    /// Inflections on or off.
+    ToggleInflections,
+    /// Curvature extrema on or off.
+    ToggleVertices,
+    /// Symmetry on or off.
+    ToggleSymmetry,
+    /// Probe line on or off.
+    ToggleProbeLine,
     /// Objects and lessons on or off.
     ToggleLeftPanel,
     /// Inspector, stepper and lesson on or off.
     ToggleRightPanel,
     /// Knot line on or off.
     ToggleKnotLine,
+    /// Charts in place of the knot line.
+    ToggleCharts,
     /// Light look.
     LookLight,
     /// Dark look.
@@ -245,13 +267,14 @@ pub enum Command {
 
 impl Command {
     /// All commands, in the order of menus, palette and sheet.
-    pub const ALL: [Self; 116] = [
+    pub const ALL: [Self; 127] = [
         Self::New,
         Self::Open,
         Self::Save,
         Self::SaveAs,
         Self::ExportFigure,
         Self::ExportFrames,
+        Self::ExportChart,
         Self::ImportMesh,
         Self::ExportMesh,
         Self::ImportData,
@@ -346,9 +369,19 @@ impl Command {
         Self::CycleLabels,
         Self::ToggleHull,
         Self::ToggleCircle,
+        Self::ToggleFrame,
+        Self::ToggleHodograph,
+        Self::ToggleBezierPoints,
+        Self::ToggleBlossomLabels,
+        Self::ToggleDistanceTube,
+        Self::ToggleInflections,
+        Self::ToggleVertices,
+        Self::ToggleSymmetry,
+        Self::ToggleProbeLine,
         Self::ToggleLeftPanel,
         Self::ToggleRightPanel,
         Self::ToggleKnotLine,
+        Self::ToggleCharts,
         Self::LookLight,
         Self::LookDark,
         Self::LookPresentation,

@@ -15,6 +15,10 @@ impl Command {
                 "Export frames…",
                 "Write every step of the algorithm: numbered SVG or PNG, one PDF, or a TikZ slide with overlays",
             ),
+            Self::ExportChart => (
+                "Export chart…",
+                "Write the chart of the selected curve as SVG, PDF or PNG, or its numbers as CSV",
+            ),
             Self::ImportData => {
                 ("Import data…", "Read a table of x and y, with weights if wanted, from a CSV file")
             }
@@ -183,9 +187,33 @@ impl Command {
             Self::CycleLabels => ("Point labels", "None, index, weight, coordinates in turn"),
             Self::ToggleHull => ("Convex hull at t", "Show or hide the hull of the active control points"),
             Self::ToggleCircle => ("Circle of curvature", "Show or hide the osculating circle at t"),
+            Self::ToggleFrame => ("Frame at t", "The unit tangent T and the unit normal N at t"),
+            Self::ToggleHodograph => {
+                ("Hodograph", "Show or hide the curve of the derivative, with its vector at t")
+            }
+            Self::ToggleBezierPoints => ("Bezier points", "Show or hide the Bezier points of all pieces"),
+            Self::ToggleBlossomLabels => (
+                "Blossom labels",
+                "Write the knots of each control point beside it, as arguments of the blossom",
+            ),
+            Self::ToggleDistanceTube => (
+                "Distance tube",
+                "Show or hide the tube around the polygon that holds the curve, with the bound and what is measured",
+            ),
+            Self::ToggleInflections => ("Inflections", "Mark where the curvature changes its sign"),
+            Self::ToggleVertices => {
+                ("Curvature extrema", "Mark where the curvature is locally largest or smallest")
+            }
+            Self::ToggleSymmetry => {
+                ("Symmetry", "Show the nearest axis or centre of symmetry, and how far the curve is from it")
+            }
+            Self::ToggleProbeLine => {
+                ("Probe line", "A line that counts its crossings with the curve and with its polygon")
+            }
             Self::ToggleLeftPanel => ("Objects and lessons", "Show or hide the left panel"),
             Self::ToggleRightPanel => ("Inspector and stepper", "Show or hide the right panel"),
             Self::ToggleKnotLine => ("Knot line", "Show or hide the knot line"),
+            Self::ToggleCharts => ("Charts", "Curvature, speed, x and y in place of the knot line"),
             Self::LookLight => ("Light look", "Dark ink on a light ground"),
             Self::LookDark => ("Dark look", "Light ink on a dark ground"),
             Self::LookPresentation => ("Presentation look", "Large type and thick lines for a projector"),

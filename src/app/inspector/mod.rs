@@ -5,6 +5,7 @@ mod knots;
 mod measurements;
 mod points;
 mod shape;
+mod whole;
 
 use eframe::egui::{CollapsingHeader, RichText, ScrollArea, Ui};
 use glam::DVec2;
@@ -47,6 +48,7 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
         section(ui, "Knots", true, |ui| knots::show(lab, ui, &subject));
         section(ui, "Shown", true, |ui| appearance::show(lab, ui, &subject));
         section(ui, "At the parameter t", true, |ui| measurements::show(lab, ui, &subject));
+        section(ui, "Whole curve", true, |ui| whole::show(lab, ui, &subject));
         ui.add_space(8.0);
     });
 }

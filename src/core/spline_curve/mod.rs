@@ -32,6 +32,8 @@
 //! | `curvature` | frames, signed curvature and its derivative, osculating circles, torsion |
 //! | `inflections`, `vertices`, `curvature_polynomial` | B.7 where curvature changes sign, where it is extreme, and the polynomials behind |
 //! | `tight_box` | B.7 the smallest box, extreme points |
+//! | `symmetry` | the axis or centre about which a plane curve is nearest to its image |
+//! | `joint` | how smoothly two curves join |
 //! | `local_piece`, `foot_polynomial`, `chord`, `piecewise_sign` | B.5, B.7 what closest points and features are made of |
 
 mod arc_length;
@@ -64,6 +66,7 @@ mod inflections;
 mod insertion_scheme;
 mod intersection_tree;
 mod join;
+mod joint;
 mod knot_insertion;
 mod knot_removal;
 mod knot_rule;
@@ -81,6 +84,7 @@ mod removal_within;
 mod samples;
 mod self_intersection;
 mod subdivision;
+mod symmetry;
 mod tessellation;
 mod tight_box;
 mod trim;
@@ -110,6 +114,7 @@ pub use hyperplane_intersection::{HyperplaneIntersection, IntersectionKind};
 pub use inflections::CurveInflections;
 pub use insertion_scheme::InsertionScheme;
 pub use intersection_tree::IntersectionTree;
+pub use joint::Joint;
 pub use knot_removal::{KnotRemoval, NurbsKnotRemoval};
 pub use knot_rule::KnotRule;
 pub use line_intersection::LineIntersection;
@@ -118,6 +123,7 @@ pub use offset::Offset;
 pub use refinement_matrix::refinement_matrix;
 pub use removal_within::{KnotReduction, NurbsKnotReduction};
 pub use subdivision::{subdivide_polygon, subdivision_mask};
+pub use symmetry::{Symmetry, SymmetryKind};
 pub use tessellation::Tessellation;
 pub use tight_box::{Extreme, TightBox};
 pub use uniform_reduction::{UniformReduction, reduce_uniformly};
