@@ -121,9 +121,8 @@ pub(super) fn distance_tube(curve: &Nurbs<DVec2>, display: &CurveDisplay, theme:
                         .map(|(x, y)| at + DVec2::new(x, y) * part.bound)
                 })
                 .collect();
-            let outline = Stroke::solid(tint.with_opacity(0.35), 0.7 * theme.stroke_scale);
             let hull = convex_hull(&squares);
-            items.push(Item::Path(Path::polygon(&hull, Some(outline), Some(tint.with_opacity(0.09)))));
+            items.push(Item::Path(Path::polygon(&hull, None, Some(tint.with_opacity(0.07)))));
         }
     }
     let worst = distances.iter().max_by(|a, b| a.measured.total_cmp(&b.measured));
