@@ -12,6 +12,8 @@ use crate::core::spline_curve::Nurbs;
 
 /// Points of Gauss' rule.
 const GAUSS_POINTS: usize = 10;
+/// Halvings after which a stop beside an end is too short to matter.
+const SEEN: usize = 16;
 /// How much more Lobatto's rule may differ.
 const ROUGH: f64 = 1e4;
 /// Halvings of one knot interval.
@@ -73,7 +75,8 @@ impl<P: Projective> ArcLength<P> {
                 // Rounding of the sum is as good as agreement.
                 let allowed = (tolerance * (b - a) / (right - left)).max(8.0 * f64::EPSILON * sum);
                 // A cusp between an end and the next Gauss point is seen from the end alone.
-                let agree = gap <= allowed && (sum - length.lobatto(a, b)).abs() <= ROUGH * allowed;
+                let agree = gap <= allowed
+                    && (depth >= SEEN || (sum - length.lobatto(a, b)).abs() <= ROUGH * allowed);
                 if agree || !(a < middle && middle < b) {
                     total += sum;
                     length.error += gap;
