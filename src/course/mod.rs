@@ -1,6 +1,6 @@
 //! Lessons, steppers and questions: what the course says and asks, without a window.
 //!
-//! - [`stepper`]: a triangular scheme told entry by entry, with sentences and formulas;
+//! - [`mod@stepper`]: a triangular scheme told entry by entry, with sentences and formulas;
 //! - [`lesson`]: the lessons of `assets/lessons/`, in the course's order;
 //! - [`question`]: questions that the mathematics of the core checks;
 //! - [`number_text`]: numbers as people write them.
