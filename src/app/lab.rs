@@ -9,6 +9,7 @@ use glam::DVec2;
 
 use crate::app::command::Command;
 use crate::app::sheet::{Sheet, Shelf};
+use crate::app::side_rooms::SideRooms;
 use crate::app::story_cache::StoryCache;
 use crate::app::workspace::Room;
 use crate::core::spline_curve::Nurbs;
@@ -163,6 +164,8 @@ pub enum SidePage {
     Stepper,
     /// The open lesson.
     Lesson,
+    /// A room for one subject.
+    Rooms,
 }
 
 /// The shared state.
@@ -206,6 +209,8 @@ pub struct Lab {
     pub stepper: StepperState,
     /// The knot line.
     pub knots: KnotHands,
+    /// The rooms beside the canvas.
+    pub rooms: SideRooms,
     /// The open lesson, if any.
     pub lesson: Option<LessonState>,
     /// What the last operation did to the shape, as a sentence for the status line.
@@ -246,6 +251,7 @@ impl Lab {
             side: SidePage::Inspector,
             stepper: StepperState::default(),
             knots: KnotHands::default(),
+            rooms: SideRooms::default(),
             lesson: None,
             shape_note: None,
             messages: Vec::new(),

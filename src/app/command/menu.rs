@@ -80,6 +80,9 @@ impl Command {
             | Self::ToggleCircle
             | Self::ToggleKnotLine
             | Self::ToggleBuilder
+            | Self::ShowConic
+            | Self::ShowHomogeneous
+            | Self::ShowHermite
             | Self::ExportFrames
             | Self::StepperPlay
             | Self::StepForward

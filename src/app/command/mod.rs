@@ -197,6 +197,12 @@ pub enum Command {
     ToggleRightPanel,
     /// Knot line on or off.
     ToggleKnotLine,
+    /// The conic of the selected curve, in the right panel.
+    ShowConic,
+    /// The selected curve in homogeneous coordinates, in the right panel.
+    ShowHomogeneous,
+    /// Cubics with given ends, in the right panel.
+    ShowHermite,
     /// Light look.
     LookLight,
     /// Dark look.
@@ -227,7 +233,7 @@ pub enum Command {
 
 impl Command {
     /// All commands, in the order of menus, palette and sheet.
-    pub const ALL: [Self; 107] = [
+    pub const ALL: [Self; 110] = [
         Self::New,
         Self::Open,
         Self::Save,
@@ -322,6 +328,9 @@ impl Command {
         Self::ToggleLeftPanel,
         Self::ToggleRightPanel,
         Self::ToggleKnotLine,
+        Self::ShowConic,
+        Self::ShowHomogeneous,
+        Self::ShowHermite,
         Self::LookLight,
         Self::LookDark,
         Self::LookPresentation,

@@ -8,6 +8,7 @@ mod draw_shapes;
 mod draw_tool;
 mod gesture;
 mod handles;
+mod hermite_hands;
 mod hit;
 mod step_hands;
 mod tools;
@@ -57,7 +58,9 @@ impl Workspace for Curves {
     }
 
     fn execute(&mut self, command: Command, lab: &mut Lab) -> bool {
-        crate::app::knot_line::execute(command, lab) || self.canvas.execute(command, lab)
+        crate::app::knot_line::execute(command, lab)
+            || crate::app::side_rooms::execute(command, lab)
+            || self.canvas.execute(command, lab)
     }
 
     fn status(&self, lab: &Lab) -> String {
