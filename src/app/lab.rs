@@ -269,6 +269,7 @@ impl Lab {
         self.hovering = Hovered::Nothing;
         self.tool = Tool::Select;
         self.stepper = StepperState { open: self.stepper.open, ..StepperState::default() };
+        self.rooms.space = None;
         self.shape_note = None;
         self.shelf.opened += 1;
         Sheet {

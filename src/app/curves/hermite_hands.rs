@@ -6,7 +6,7 @@ use glam::DVec2;
 use crate::app::hands;
 use crate::app::lab::{Lab, Tool};
 use crate::app::painter::{color32, paint_note, screen_from_world, world_from_screen};
-use crate::app::side_rooms::{End, SideRoom};
+use crate::app::side_rooms::{End, Hermite, SideRoom};
 use crate::figure::composition::short_number;
 use crate::figure::picture::Viewport;
 
@@ -59,16 +59,17 @@ impl HermiteHands {
         rect: Rect,
         ui: &Ui,
     ) -> bool {
-        if !shown(lab) {
+        let Some(mut hermite) = shown(lab) else {
             self.held = None;
             return false;
-        }
+        };
         let (down, pointer, keys) =
             ui.input(|input| (input.pointer.primary_down(), input.pointer.latest_pos(), input.modifiers));
         if let Some(at) = hands::pressed_at(ui).filter(|at| rect.contains(*at) && response.contains_pointer())
         {
-            let near =
-                |&(end, grip): &(usize, Grip)| place(lab, end, grip, viewport, rect).distance(at) <= REACH;
+            let near = |&(end, grip): &(usize, Grip)| {
+                place(&hermite, end, grip, viewport, rect).distance(at) <= REACH
+            };
             self.held = all().find(near);
         }
         let Some(((index, grip), pointer)) = self.held.zip(pointer) else { return false };
@@ -76,8 +77,8 @@ impl HermiteHands {
             self.held = None;
         }
         let world = world_from_screen(viewport, rect, pointer);
-        let bend = bend(lab, viewport);
-        let end = &mut lab.rooms.hermite.ends[index];
+        let bend = bend(&hermite, viewport);
+        let end = &mut hermite.ends[index];
         let way = world - end.point;
         match grip {
             Grip::Point => {
@@ -95,18 +96,17 @@ impl HermiteHands {
             }
             Grip::Direction | Grip::Curvature => {}
         }
+        lab.rooms.hermite = Some(hermite);
         true
     }
 
     /// Shows the handles.
     pub(super) fn paint(&self, lab: &Lab, viewport: &Viewport, rect: Rect, painter: &Painter, ui: &Ui) {
-        if !shown(lab) {
-            return;
-        }
+        let Some(hermite) = shown(lab) else { return };
         let (ink, ground) = (color32(lab.theme.text), color32(lab.theme.background));
         for (index, grip) in all().collect::<Vec<_>>().into_iter().rev() {
-            let at = place(lab, index, grip, viewport, rect);
-            let from = place(lab, index, Grip::Point, viewport, rect);
+            let at = place(&hermite, index, grip, viewport, rect);
+            let from = place(&hermite, index, Grip::Point, viewport, rect);
             let stroke = Stroke::new(if self.held == Some((index, grip)) { 3.0 } else { 1.8 }, ink);
             match grip {
                 Grip::Point => {
@@ -118,8 +118,8 @@ impl HermiteHands {
                     painter.circle(at, 5.0, ground, stroke);
                 }
                 Grip::Curvature => {
-                    let elbow =
-                        from + (place(lab, index, Grip::Direction, viewport, rect) - from) * ELBOW as f32;
+                    let elbow = from
+                        + (place(&hermite, index, Grip::Direction, viewport, rect) - from) * ELBOW as f32;
                     let warning = color32(lab.theme.warning);
                     painter.line_segment([elbow, at], Stroke::new(1.2, warning));
                     let corners = [vec2(0.0, -6.0), vec2(6.0, 0.0), vec2(0.0, 6.0), vec2(-6.0, 0.0)];
@@ -140,21 +140,21 @@ impl HermiteHands {
             }
         }
         if let Some((index, grip)) = self.held {
-            let end = &lab.rooms.hermite.ends[index];
+            let end = &hermite.ends[index];
             let text = match grip {
                 Grip::Point => format!("{}; {}", short_number(end.point.x), short_number(end.point.y)),
                 Grip::Direction => format!("{}\u{b0}", short_number(end.angle)),
                 Grip::Curvature => format!("\u{3ba} = {}", short_number(end.curvature)),
             };
-            let at = place(lab, index, grip, viewport, rect) + vec2(14.0, 14.0);
+            let at = place(&hermite, index, grip, viewport, rect) + vec2(14.0, 14.0);
             let (theme, size) = (&lab.theme, 12.0 * lab.theme.text_scale as f32);
             paint_note(painter, at, Align2::LEFT_TOP, &text, size, theme.text, theme.background);
         }
     }
 }
 
-fn shown(lab: &Lab) -> bool {
-    lab.rooms.shows(SideRoom::Hermite) && lab.tool == Tool::Select
+fn shown(lab: &Lab) -> Option<Hermite> {
+    lab.rooms.hermite.filter(|_| lab.rooms.shows(SideRoom::Hermite) && lab.tool == Tool::Select)
 }
 
 fn all() -> impl Iterator<Item = (usize, Grip)> {
@@ -162,19 +162,19 @@ fn all() -> impl Iterator<Item = (usize, Grip)> {
 }
 
 /// Way across the arm in the world for the curvature 1.
-fn bend(lab: &Lab, viewport: &Viewport) -> f64 {
-    let [start, end] = lab.rooms.hermite.ends;
+fn bend(hermite: &Hermite, viewport: &Viewport) -> f64 {
+    let [start, end] = hermite.ends;
     BEND * start.point.distance(end.point) / viewport.scale
 }
 
-fn place(lab: &Lab, index: usize, grip: Grip, viewport: &Viewport, rect: Rect) -> Pos2 {
-    let end: &End = &lab.rooms.hermite.ends[index];
+fn place(hermite: &Hermite, index: usize, grip: Grip, viewport: &Viewport, rect: Rect) -> Pos2 {
+    let end: &End = &hermite.ends[index];
     let arm = end.direction() * (ARM / viewport.scale);
     let at: DVec2 = match grip {
         Grip::Point => end.point,
         Grip::Direction => end.point + arm,
         Grip::Curvature => {
-            end.point + arm * ELBOW + end.direction().perp() * (end.curvature * bend(lab, viewport))
+            end.point + arm * ELBOW + end.direction().perp() * (end.curvature * bend(hermite, viewport))
         }
     };
     screen_from_world(viewport, rect, at)

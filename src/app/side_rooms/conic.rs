@@ -195,13 +195,13 @@ fn typeset_number(value: f64) -> String {
 /// The size of the weight in words.
 pub(super) fn weight_text(weight: f64) -> String {
     let kind = if (weight - 1.0).abs() <= SAME {
-        "= 1: parabola"
+        ": an arc of a parabola"
     } else if weight < 1.0 {
-        "< 1: ellipse"
+        ", less than 1: an arc of an ellipse"
     } else {
-        "> 1: hyperbola"
+        ", more than 1: an arc of a hyperbola"
     };
-    format!("w = {} {kind}", short(weight))
+    format!("w = {}{kind}", short(weight))
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use glam::DVec2;
 use crate::core::bezier::{BezierError, EndData, GeometricHermite, geometric_hermite};
 use crate::core::bspline::Side;
 use crate::core::spline_curve::Nurbs;
+use crate::document::Camera;
 use crate::figure::picture::{Color, Item, Path, Picture, Stroke, Viewport};
 use crate::figure::theme::Theme;
 
@@ -56,16 +57,8 @@ pub struct Hermite {
 }
 
 impl Default for Hermite {
-    /// Data with three solutions.
     fn default() -> Self {
-        let curvature = 13.0 / 96.0;
-        Self {
-            ends: [
-                End { point: DVec2::ZERO, angle: 0.0, curvature },
-                End { point: DVec2::splat(4.0), angle: 90.0, curvature },
-            ],
-            chosen: 0,
-        }
+        Self::example(DVec2::ZERO, 1.0)
     }
 }
 
@@ -83,6 +76,24 @@ pub(super) struct Equations {
 }
 
 impl Hermite {
+    /// Data with three solutions, with lower left corner and size.
+    pub fn example(corner: DVec2, size: f64) -> Self {
+        let curvature = 0.6 / size;
+        let end = corner + DVec2::splat(size);
+        let ends = [End { point: corner, angle: 0.0, curvature }, End { point: end, angle: 90.0, curvature }];
+        Self { ends, chosen: 0 }
+    }
+
+    /// [`Self::example`] in the middle of the view, with round coordinates.
+    pub(super) fn example_in(camera: &Camera, canvas: DVec2) -> Self {
+        let room = 0.6 * canvas.min_element() / camera.scale;
+        let power = 10.0_f64.powf(room.log10().floor());
+        let size = [5.0, 2.0, 1.0].into_iter().find(|step| step * power <= room).unwrap_or(1.0) * power;
+        let step = 0.25 * size;
+        let corner = ((camera.center - DVec2::splat(0.5 * size)) / step).round() * step;
+        if corner.is_finite() && size > 0.0 { Self::example(corner, size) } else { Self::default() }
+    }
+
     /// The ends of `curve`, unless it is closed or stands still there.
     pub(super) fn of(curve: &Nurbs<DVec2>) -> Option<Self> {
         let (left, right) = curve.space().parameter_interval();

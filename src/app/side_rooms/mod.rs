@@ -48,8 +48,8 @@ pub struct SideRooms {
     pub complement: bool,
     /// How space is looked at.
     pub space: Option<Space>,
-    /// The ends of the cubics.
-    pub hermite: Hermite,
+    /// The ends of the cubics; `None` before they are first shown.
+    pub hermite: Option<Hermite>,
 }
 
 impl Default for SideRooms {
@@ -60,7 +60,7 @@ impl Default for SideRooms {
             whole_conic: true,
             complement: false,
             space: None,
-            hermite: Hermite::default(),
+            hermite: None,
         }
     }
 }
@@ -108,8 +108,8 @@ pub(crate) fn execute(command: Command, lab: &mut Lab) -> bool {
 pub(crate) fn draw(lab: &Lab, viewport: &Viewport, picture: &mut Picture) {
     if lab.rooms.shows(SideRoom::Conic) {
         conic_drawing::draw(lab, viewport, picture);
-    } else if lab.rooms.shows(SideRoom::Hermite) {
-        lab.rooms.hermite.draw(&lab.theme, viewport, picture);
+    } else if let Some(hermite) = lab.rooms.hermite.filter(|_| lab.rooms.shows(SideRoom::Hermite)) {
+        hermite.draw(&lab.theme, viewport, picture);
     }
 }
 

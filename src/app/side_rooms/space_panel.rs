@@ -33,7 +33,7 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui) {
     let Some((object, curve)) = subject(lab, ui, "to see it in homogeneous coordinates") else { return };
     let Some(t) = lab.parameter(object) else { return };
     let width = ui.available_width();
-    let height = (ui.available_height() - 190.0).clamp(160.0, width * 1.1);
+    let height = (ui.available_height() - 230.0).clamp(160.0, width * 1.25);
     let (rect, response) = ui.allocate_exact_size(vec2(width, height), Sense::click_and_drag());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Homogeneous space"));
     let size = DVec2::new(f64::from(rect.width()), f64::from(rect.height()));
@@ -95,6 +95,8 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui) {
         }
         ui.label(RichText::new("drag: turn, wheel: nearer, points: along their rays").weak().small());
     });
+    let text = "The upper curve is (w x, w y, w). Its rays to the origin carry it to the plane w = 1, which shows the curve.";
+    ui.label(RichText::new(text).weak().small());
     numbers(lab, ui, object, t);
 }
 
@@ -195,7 +197,7 @@ fn numbers(lab: &mut Lab, ui: &mut Ui, object: ObjectId, t: f64) {
 }
 
 fn weight(lab: &mut Lab, ui: &mut Ui, object: ObjectId, point: usize, now: f64) {
-    ui.label(format!("w{point}"));
+    ui.label(format!("w{}", subscript(point)));
     let label = format!("Weight {point} in space");
     let field = NumberField::new(&label, now).width(64.0).drag(Drag::Factor).check(positive);
     let event = field.show(ui, ("weight in space", point)).event;
@@ -214,4 +216,10 @@ fn weight(lab: &mut Lab, ui: &mut Ui, object: ObjectId, point: usize, now: f64) 
     if slider.hovered() {
         lab.hovering = Hovered::Point(object, point);
     }
+}
+
+/// The digits of `number` as subscripts.
+fn subscript(number: usize) -> String {
+    let lowered = |digit: u32| char::from_u32(0x2080 + digit);
+    number.to_string().chars().filter_map(|sign| sign.to_digit(10).and_then(lowered)).collect()
 }
