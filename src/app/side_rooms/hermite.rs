@@ -159,24 +159,26 @@ impl Hermite {
 
     /// Draws every cubic, the chosen one strongest, and the arcs of curvature at the ends.
     pub(super) fn draw(&self, theme: &Theme, viewport: &Viewport, picture: &mut Picture) {
-        let mut items = Vec::new();
+        let (mut items, mut lines) = (Vec::new(), Vec::new());
         for end in &self.ends {
             let arc = Stroke::solid(theme.warning.with_opacity(0.8), 1.6 * theme.stroke_scale);
             items.push(Item::Path(Path::polyline(&curvature_arc(end, ARC / viewport.scale), arc)));
         }
         for (k, solution) in self.solutions().unwrap_or_default().iter().enumerate() {
-            let is_chosen = k == self.chosen;
-            let (width, opacity) = if is_chosen { (3.0, 1.0) } else { (1.5, 0.75) };
-            let stroke = Stroke::solid(color(theme, k).with_opacity(opacity), width * theme.stroke_scale);
+            let ink = color(theme, k);
             let places: Vec<DVec2> = (0..=STEPS)
                 .filter_map(|step| solution.curve.evaluate(f64::from(step) / f64::from(STEPS)).ok())
                 .collect();
-            if is_chosen {
+            if k == self.chosen {
                 let polygon = Stroke::dashed(theme.polygon, theme.stroke_scale, 5.0, 4.0);
                 items.push(Item::Path(Path::polyline(solution.curve.points(), polygon)));
+                // A band, so that cubics near by are seen on it.
+                let band = Stroke::solid(ink.with_opacity(0.35), 8.0 * theme.stroke_scale);
+                items.push(Item::Path(Path::polyline(&places, band)));
             }
-            items.push(Item::Path(Path::polyline(&places, stroke)));
+            lines.push(Item::Path(Path::polyline(&places, Stroke::solid(ink, 1.8 * theme.stroke_scale))));
         }
+        items.append(&mut lines);
         picture.push_layer("geometric Hermite interpolation", items);
     }
 }

@@ -1,8 +1,8 @@
 //! The plane of the two speeds: two parabolas, and a dot for every cubic.
 
-use eframe::egui::{self, Align2, FontId, Pos2, Sense, Shape, Stroke, StrokeKind, Ui, vec2};
+use eframe::egui::{self, Align2, Pos2, Sense, Shape, Stroke, StrokeKind, Ui, vec2};
 
-use crate::app::painter::color32;
+use crate::app::painter::{color32, paint_note};
 use crate::app::side_rooms::hermite::{Equations, color};
 use crate::core::bezier::GeometricHermite;
 use crate::figure::theme::Theme;
@@ -54,11 +54,12 @@ pub(super) fn show(
             .collect();
         painter.add(Shape::line(line, stroke));
     }
-    let font = FontId::proportional(12.0 * theme.text_scale as f32);
-    let muted = color32(theme.muted_text);
-    let at = page([high, 0.0]) + vec2(-5.0, 2.0);
-    painter.text(at, Align2::RIGHT_TOP, "\u{3b1}\u{2080}", font.clone(), muted);
-    painter.text(page([0.0, high]) + vec2(-4.0, 4.0), Align2::RIGHT_TOP, "\u{3b1}\u{2081}", font, muted);
+    let size = 12.0 * theme.text_scale as f32;
+    let (ink, ground) = (theme.muted_text, theme.background);
+    let at = page([high, 0.0]) + vec2(-8.0, 12.0);
+    paint_note(&painter, at, Align2::RIGHT_CENTER, "\u{3b1}\u{2080}", size, ink, ground);
+    let at = page([0.0, high]) + vec2(-8.0, 12.0);
+    paint_note(&painter, at, Align2::RIGHT_CENTER, "\u{3b1}\u{2081}", size, ink, ground);
     for (k, &at) in places.iter().enumerate() {
         let ring = if k == chosen { Stroke::new(2.0, color32(theme.text)) } else { Stroke::NONE };
         painter.circle(page(at), 5.0, color32(color(theme, k)), ring);

@@ -88,7 +88,9 @@ impl Space {
 
         let mut items = Vec::new();
         for pair in samples.iter().step_by(4).collect::<Vec<_>>().windows(2) {
-            items.extend(draw.polygon(&[DVec3::ZERO, *pair[0], *pair[1]], Some(cone), None));
+            // Cut a little above the origin: needles would throw spikes.
+            let [a, b] = [*pair[0], *pair[1]];
+            items.extend(draw.polygon(&[a * 0.04, a, b, b * 0.04], Some(cone), None));
         }
         for at in samples.iter().step_by((steps / 24).max(1)) {
             items.extend(draw.line(&[DVec3::ZERO, *at * (self.height / at.z).max(1.0)], ray.clone()));

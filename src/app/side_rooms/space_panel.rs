@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use eframe::egui::{self, Key, Pos2, Rect, RichText, ScrollArea, Sense, Slider, StrokeKind, Ui, vec2};
+use eframe::egui::{self, Grid, Key, Pos2, Rect, RichText, ScrollArea, Sense, Slider, StrokeKind, Ui, vec2};
 use glam::DVec2;
 
 use crate::app::hands;
@@ -33,7 +33,7 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui) {
     let Some((object, curve)) = subject(lab, ui, "to see it in homogeneous coordinates") else { return };
     let Some(t) = lab.parameter(object) else { return };
     let width = ui.available_width();
-    let height = (ui.available_height() - 230.0).clamp(160.0, width * 1.25);
+    let height = (ui.available_height() - 250.0).clamp(160.0, width * 1.25);
     let (rect, response) = ui.allocate_exact_size(vec2(width, height), Sense::click_and_drag());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Homogeneous space"));
     let size = DVec2::new(f64::from(rect.width()), f64::from(rect.height()));
@@ -173,11 +173,14 @@ fn announce(ui: &Ui, rect: Rect, pages: &[Option<Pos2>]) {
 fn numbers(lab: &mut Lab, ui: &mut Ui, object: ObjectId, t: f64) {
     let Some(curve) = lab.curve().cloned() else { return };
     if let Ok(at) = curve.homogeneous().evaluate(t) {
-        ui.horizontal_wrapped(|ui| {
-            ui.label(RichText::new(format!("At t = {}:", short(t))).weak());
-            copyable(lab, ui, "(w x, w y, w)", &[at.x, at.y, at.z]);
-            ui.label(RichText::new("gives").weak());
-            copyable(lab, ui, "(x, y)", &[at.x / at.z, at.y / at.z]);
+        Grid::new("both ways").num_columns(2).spacing([8.0, 2.0]).show(ui, |ui| {
+            let ways =
+                [("In space", vec![at.x, at.y, at.z]), ("In the plane", vec![at.x / at.z, at.y / at.z])];
+            for (name, numbers) in ways {
+                ui.label(RichText::new(name).weak()).on_hover_text(format!("The point at t = {}", short(t)));
+                copyable(lab, ui, name, &numbers);
+                ui.end_row();
+            }
         });
     }
     let all = 0..curve.points().len();
