@@ -275,7 +275,7 @@ impl Canvas {
         let painter = ui.painter_at(rect);
         let choices = Composition { step: step(lab), transparent: false };
         let mut picture = compose_with(lab.history.document(), &lab.view, &lab.theme, viewport, &choices);
-        side_rooms::draw(lab, viewport, &mut picture);
+        side_rooms::lay_over(side_rooms::overlay(lab, viewport), &mut picture);
         paint_picture(&picture, viewport, rect, &painter);
         self.step_hands.paint(lab, viewport, rect, &painter, ui);
         self.hermite_hands.paint(lab, viewport, rect, &painter, ui);

@@ -3,9 +3,10 @@
 use glam::DVec2;
 
 use crate::app::lab::Lab;
+use crate::app::side_rooms::CONIC;
 use crate::app::side_rooms::conic::{Piece, piece};
 use crate::core::rational_bezier::{Conic, ConicKind, ExtendedParameter};
-use crate::figure::picture::{Item, Layer, Marker, MarkerShape, Path, Picture, Stroke, Viewport};
+use crate::figure::picture::{Item, Marker, MarkerShape, Path, Picture, Stroke, Viewport};
 use crate::figure::theme::Theme;
 
 /// Places of the complementary arc that are joined by lines.
@@ -17,11 +18,7 @@ pub(super) fn draw(lab: &Lab, viewport: &Viewport, picture: &mut Picture) {
     let Some(piece) = lab.parameter(object).and_then(|t| piece(curve, t).ok()) else { return };
     let Ok(conic) = piece.extended.implicit() else { return };
     if lab.rooms.whole_conic {
-        // Behind the curves, which hide the part that they run along.
-        let ground =
-            picture.layers.iter().take_while(|layer| matches!(layer.name.as_str(), "grid" | "scale")).count();
-        let layer = Layer { name: "conic".to_owned(), items: whole(&conic, viewport, &lab.theme) };
-        picture.layers.insert(ground, layer);
+        picture.push_layer(CONIC, whole(&conic, viewport, &lab.theme));
         picture.push_layer("axes and foci", marks(&conic, viewport, &lab.theme));
     }
     if lab.rooms.complement {

@@ -18,10 +18,13 @@ use crate::app::command::Command;
 use crate::app::lab::{Lab, SidePage};
 use crate::core::spline_curve::Nurbs;
 use crate::document::ObjectId;
-use crate::figure::picture::{Picture, Viewport};
+use crate::figure::picture::{Layer, Picture, Viewport};
 
 pub use hermite::{End, Hermite};
 pub use space::Space;
+
+/// Name of the layer with the complete conic.
+const CONIC: &str = "complete conic";
 
 /// Which room is shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -104,12 +107,27 @@ pub(crate) fn execute(command: Command, lab: &mut Lab) -> bool {
     true
 }
 
-/// Draws on the canvas what belongs to the room.
-pub(crate) fn draw(lab: &Lab, viewport: &Viewport, picture: &mut Picture) {
+/// What the room adds to the picture of the canvas.
+pub(crate) fn overlay(lab: &Lab, viewport: &Viewport) -> Vec<Layer> {
+    let mut picture = Picture::new(None);
     if lab.rooms.shows(SideRoom::Conic) {
-        conic_drawing::draw(lab, viewport, picture);
+        conic_drawing::draw(lab, viewport, &mut picture);
     } else if let Some(hermite) = lab.rooms.hermite.filter(|_| lab.rooms.shows(SideRoom::Hermite)) {
-        hermite.draw(&lab.theme, viewport, picture);
+        hermite.draw(&lab.theme, viewport, &mut picture);
+    }
+    picture.layers
+}
+
+/// Puts the layers of [`overlay`] over `picture`, the complete conic behind its curves, which hide the part that they run along.
+pub(crate) fn lay_over(overlay: Vec<Layer>, picture: &mut Picture) {
+    let ground = |layer: &&Layer| matches!(layer.name.as_str(), "grid" | "scale");
+    for layer in overlay {
+        let at = if layer.name == CONIC {
+            picture.layers.iter().take_while(ground).count()
+        } else {
+            picture.layers.len()
+        };
+        picture.layers.insert(at, layer);
     }
 }
 
@@ -121,4 +139,40 @@ fn subject(lab: &Lab, ui: &mut Ui, purpose: &str) -> Option<(ObjectId, Nurbs<DVe
         ui.label(RichText::new(format!("Select a curve {purpose}.")).weak());
     }
     found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::test_bench;
+    use crate::core::bspline::SplineSpace;
+    use crate::figure::composition::compose;
+    use crate::figure::picture::{Item, Segment};
+
+    #[test]
+    fn the_complete_conic_lies_behind_the_curve_and_on_its_equation() {
+        let space = SplineSpace::new(2, vec![-1.0, 0.0, 0.0, 1.0, 1.0, 2.0]).unwrap();
+        let points = vec![DVec2::X, DVec2::ONE, DVec2::Y];
+        let mut lab =
+            test_bench::lab_with(Nurbs::new(space, points, vec![1.0, 0.5_f64.sqrt(), 1.0]).unwrap());
+        lab.tidy_selection();
+        execute(Command::ShowConic, &mut lab);
+        lab.rooms.open = true;
+        let viewport = Viewport { center: DVec2::ZERO, scale: 100.0, size: DVec2::new(400.0, 300.0) };
+        let mut picture = compose(lab.history.document(), &lab.view, &lab.theme, &viewport);
+        lay_over(overlay(&lab, &viewport), &mut picture);
+        let place = |name: &str| picture.layers.iter().position(|layer| layer.name.contains(name)).unwrap();
+        assert!(place(CONIC) < place("Wave"), "behind the curve");
+        assert!(place("axes and foci") > place("Wave"), "before it");
+        let mut places = Vec::new();
+        for item in &picture.layers[place(CONIC)].items {
+            let Item::Path(path) = item else { panic!("a path") };
+            places.extend(path.segments.iter().filter_map(|segment| match segment {
+                Segment::Move(at) | Segment::Line(at) => Some(*at),
+                _ => None,
+            }));
+        }
+        assert!(places.iter().any(|at| at.x < -0.99), "the whole circle is there");
+        assert!(places.iter().all(|at| (at.length() - 1.0).abs() < 1e-12), "on the unit circle");
+    }
 }

@@ -4,7 +4,8 @@ use glam::{DVec2, DVec3};
 
 use crate::core::spline_curve::Nurbs;
 use crate::document::{EyeState, ObjectId};
-use crate::figure::picture::{Item, Label, Marker, MarkerShape, Path, Picture, Stroke};
+use crate::figure::mesh::Mesh;
+use crate::figure::picture::{Anchor, Color, Item, Label, Marker, MarkerShape, Path, Picture, Stroke};
 use crate::figure::scene::{Eye, EyeView};
 use crate::figure::theme::Theme;
 
@@ -86,12 +87,7 @@ impl Space {
         let ink = theme.palette[0];
         let (cone, ray) = (theme.surface.with_opacity(0.16), Stroke::solid(ink.with_opacity(0.35), 0.8));
 
-        let mut items = Vec::new();
-        for pair in samples.iter().step_by(4).collect::<Vec<_>>().windows(2) {
-            // Cut a little above the origin: needles would throw spikes.
-            let [a, b] = [*pair[0], *pair[1]];
-            items.extend(draw.polygon(&[a * 0.04, a, b, b * 0.04], Some(cone), None));
-        }
+        let mut items: Vec<Item> = draw.fan(&samples, cone).into_iter().collect();
         for at in samples.iter().step_by((steps / 24).max(1)) {
             items.extend(draw.line(&[DVec3::ZERO, *at * (self.height / at.z).max(1.0)], ray.clone()));
         }
@@ -173,34 +169,33 @@ impl Pen<'_> {
         Some(Item::Path(Path::polyline(&self.all(places)?, stroke)))
     }
 
-    fn polygon(
-        &self,
-        places: &[DVec3],
-        fill: Option<crate::figure::picture::Color>,
-        stroke: Option<Stroke>,
-    ) -> Option<Item> {
+    fn polygon(&self, places: &[DVec3], fill: Option<Color>, stroke: Option<Stroke>) -> Option<Item> {
         Some(Item::Path(Path::polygon(&self.all(places)?, stroke, fill)))
     }
 
-    fn mark(
-        &self,
-        at: DVec3,
-        shape: MarkerShape,
-        size: f64,
-        color: crate::figure::picture::Color,
-    ) -> Option<Item> {
+    /// The triangles from the origin to the pieces of a polyline.
+    fn fan(&self, places: &[DVec3], color: Color) -> Option<Item> {
+        let mut points = self.all(places)?;
+        let apex = points.len() as u32;
+        points.push(self.page(DVec3::ZERO)?);
+        let triangles = (1..apex).map(|k| [apex, k - 1, k]).collect();
+        let colors = vec![color; points.len()];
+        Mesh::new(points, colors, triangles).ok().map(Item::Mesh)
+    }
+
+    fn mark(&self, at: DVec3, shape: MarkerShape, size: f64, color: Color) -> Option<Item> {
         let stroke = Some(Stroke::solid(self.theme.panel, 1.0));
         Some(Item::Marker(Marker { at: self.page(at)?, shape, size, fill: Some(color), stroke }))
     }
 
-    fn label(&self, at: DVec3, text: &str, color: crate::figure::picture::Color) -> Option<Item> {
+    fn label(&self, at: DVec3, text: &str, color: Color) -> Option<Item> {
         Some(Item::Label(Label {
             at: self.page(at)?,
             offset: DVec2::new(6.0, -12.0),
             text: text.to_owned(),
             size: 12.0 * self.theme.text_scale,
             color,
-            anchor: crate::figure::picture::Anchor::Start,
+            anchor: Anchor::Start,
             math: false,
         }))
     }
