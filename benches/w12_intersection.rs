@@ -26,13 +26,13 @@ fn main() {
     });
     check(
         "W12-curve-line",
-        &format!("\"hits\": {}", one.intersect_line(DVec2::Y, 0.1, 1e-12).expect("a line").len()),
+        &format!("\"hits\": {}", one.intersect_line(DVec2::Y, 0.05, 1e-12).expect("a line").len()),
     );
     measure("W12-curve-line", 1, "Nurbs::intersect_line, nothing prepared", || {
-        black_box(one.intersect_line(DVec2::Y, 0.1, 1e-12).expect("a line"));
+        black_box(one.intersect_line(DVec2::Y, 0.05, 1e-12).expect("a line"));
     });
     measure("W12-curve-line", 1, "IntersectionTree::intersect_line, tree prepared", || {
-        black_box(trees[0].intersect_line(DVec2::Y, 0.1, 1e-12).expect("a line"));
+        black_box(trees[0].intersect_line(DVec2::Y, 0.05, 1e-12).expect("a line"));
     });
     measure("W12-prepare", 1, "IntersectionTree::new", || {
         black_box(IntersectionTree::new(&one).expect("small numbers"));

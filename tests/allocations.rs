@@ -2,8 +2,8 @@
 
 use allocation_counter::measure;
 use glam::DVec2;
-use spline_lab::core::bspline::{EndKnots, PowerForm, SplineSpace};
-use spline_lab::core::spline_curve::Nurbs;
+use spline_lab::core::bspline::{EndKnots, PowerForm, Side, SplineSpace};
+use spline_lab::core::spline_curve::{ClosestPointTree, Nurbs};
 
 /// A curve of the degree with and without weights.
 fn curves(degree: usize) -> [Nurbs<DVec2>; 2] {
@@ -31,6 +31,12 @@ fn evaluation_does_not_allocate() {
         for curve in curves(degree) {
             assert_free("a value", || assert!(curve.evaluate(1.5).is_ok(), "in D"));
             assert_free("many values", || curve.evaluate_into(&ts, &mut points).expect("in D"));
+            let mut jet = [DVec2::ZERO; 4];
+            assert_free("derivatives", || {
+                curve.derivatives_into(1.5, Side::Right, &mut jet).expect("in D");
+            });
+            let tree = ClosestPointTree::new(&curve).expect("small numbers");
+            assert_free("a closest point", || assert!(tree.closest_point(DVec2::ONE).is_ok(), "finite"));
         }
     }
 }

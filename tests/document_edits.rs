@@ -273,6 +273,15 @@ fn impossible_edits_name_what_is_wrong() {
         ),
         (Edit::SetWeight { object: CURVE, point: 2, weight: 0.0 }, "weight 2 is 0; weights must be positive"),
         (Edit::InsertKnot { object: CURVE, at: 9.0 }, "9 lies outside [0, 4]"),
+        (Edit::MoveCurveAt { object: CURVE, at: 9.0, delta: DVec2::X }, "9 lies outside [0, 4]"),
+        (
+            Edit::MoveCurveAt { object: CURVE, at: 1.0, delta: DVec2::NAN },
+            "the displacement is NaN, not a finite number",
+        ),
+        (
+            Edit::MoveEditPoint { object: CURVE, point: 9, delta: DVec2::X },
+            "object 1 has no point 9; its 7 points are numbered from 0",
+        ),
         (Edit::RemoveKnot { object: CURVE, at: 0.7 }, "0.7 is not a knot of object 1"),
         (
             Edit::MoveKnot { object: CURVE, knot: 11, to: 0.0 },
@@ -344,6 +353,8 @@ fn names_for_the_undo_menu() {
         (Edit::InsertKnot { object, at: -1e-9 }, "Insert knot -1.0e-9"),
         (Edit::SetWeight { object, point: 2, weight: 3.0 }, "Set weight 2 to 3"),
         (Edit::SetClosed { object, closed: true }, "Close curve"),
+        (Edit::MoveCurveAt { object, at: 0.5, delta: DVec2::X }, "Drag curve"),
+        (Edit::MoveEditPoint { object, point: 2, delta: DVec2::X }, "Move edit point 2"),
     ] {
         assert_eq!(edit.name(), name, "{edit:?}");
     }

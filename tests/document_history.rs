@@ -63,7 +63,7 @@ impl Random {
         let at = left + (right - left) * (self.number() * 1.1 - 0.05);
         let old = knots[self.below(knots.len())];
         // Documents that only grow make the test slow.
-        let mut kind = self.below(32);
+        let mut kind = self.below(34);
         if count > 40 && (kind == 13 || kind == 17) {
             kind = 22;
         }
@@ -120,6 +120,8 @@ impl Random {
                 let edit = Edit::MoveKnot { object, knot: self.below(knots.len()), to: at };
                 Edit::KeepCurve { edit: Box::new(edit) }
             }
+            31 => Edit::MoveCurveAt { object, at, delta: self.point() },
+            32 => Edit::MoveEditPoint { object, point: self.below(count + 1), delta: self.point() },
             _ if depth < 2 => {
                 let edits = (0..self.below(4)).map(|_| self.edit(document, depth + 1)).collect();
                 Edit::Batch { label: "Several".to_owned(), edits }

@@ -59,9 +59,20 @@ fn display() -> impl Strategy<Value = CurveDisplay> {
         PointLabels::Weight,
         PointLabels::Coordinates,
     ]);
-    (0..20_usize, 0.01..100.0_f64, labels, any::<[bool; 8]>(), any::<f64>(), 1..1000_usize).prop_map(
-        |(color, width, labels, flags, comb_scale, comb_teeth)| {
+    (
+        0..20_usize,
+        0.01..100.0_f64,
+        labels,
+        any::<[bool; 8]>(),
+        any::<[bool; 10]>(),
+        any::<f64>(),
+        1..1000_usize,
+    )
+        .prop_map(|(color, width, labels, flags, more, comb_scale, comb_teeth)| {
             let [polygon, points, knots, comb, construction, hull, osculating_circle, pieces] = flags;
+            let [frame, hodograph, bezier_points, blossom_labels, distance_tube, more @ ..] = more;
+            let [inflections, vertices, symmetry, probe_line, has_probe] = more;
+            let probe = has_probe.then_some([DVec2::new(width, comb_scale.clamp(-1e9, 1e9)), DVec2::X]);
             let comb_scale = if comb_scale.is_finite() { comb_scale } else { 1.0 };
             CurveDisplay {
                 color,
@@ -77,9 +88,18 @@ fn display() -> impl Strategy<Value = CurveDisplay> {
                 hull,
                 osculating_circle,
                 pieces,
+                frame,
+                hodograph,
+                bezier_points,
+                blossom_labels,
+                distance_tube,
+                inflections,
+                vertices,
+                symmetry,
+                probe_line,
+                probe,
             }
-        },
-    )
+        })
 }
 
 fn bits(curve: &Nurbs<DVec2>) -> Vec<u64> {

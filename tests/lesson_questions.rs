@@ -1,6 +1,7 @@
 //! Every question of a lesson that is answered by changing the curve can be answered so, and not otherwise.
 
 use glam::DVec2;
+use spline_lab::course::stepper::stepper;
 use spline_lab::course::{Answer, Lesson, Task, Verdict, lessons};
 use spline_lab::document::{Document, Edit, ObjectId};
 
@@ -285,5 +286,18 @@ fn the_quarter_circle_has_the_ends_of_the_worked_example() {
         example("3.4-a")["input"]["C"][0].as_array().expect("points").iter().map(numbers).collect();
     for (point, expected) in conic.points().iter().zip(circle) {
         assert!(close(&point.to_array(), &expected), "{point} instead of {expected:?}");
+    }
+}
+
+#[test]
+fn the_algorithm_of_every_lesson_can_be_told() {
+    for lesson in lessons() {
+        let selected = lesson.view.selected_object.and_then(|id| Some((id, lesson.document.curve(id)?)));
+        let Some((id, curve)) = selected else { continue };
+        let (left, right) = curve.space().parameter_interval();
+        let t = lesson.view.parameters.get(&id).copied().unwrap_or(0.5 * (left + right));
+        let (kind, choices) = (lesson.view.stepper, &lesson.view.stepper_choices);
+        let told = stepper(kind, curve, t, choices);
+        assert!(told.is_ok_and(|told| told.frames().len() > 1), "{}: {kind:?} at {t}", lesson.section);
     }
 }

@@ -378,6 +378,95 @@ fn a_stroke_by_free_hand_becomes_a_spline_near_it() {
 }
 
 #[test]
+fn another_tolerance_fits_the_last_stroke_again() {
+    let mut window = window(None);
+    keys(&mut window, Modifiers::COMMAND, Key::Num3);
+    let way: Vec<Pos2> = (0..=80)
+        .map(|k| f64::from(k) / 80.0)
+        .map(|s| at(&window, -5.0 + 9.0 * s, 2.0 * (9.0 * s).sin() + 0.3 * (31.0 * s).cos()))
+        .collect();
+    drag_along(&mut window, &way);
+    let fine = curve(&window);
+    window.get_by_label("Shapes").click();
+    window.run_steps(4);
+    let field = "Tolerance of strokes in pixels";
+    window.get_by_label(field).click();
+    window.run_steps(3);
+    window.get_by_label(field).type_text("12");
+    window.run_steps(2);
+    key(&mut window, Key::Enter);
+    window.run_steps(3);
+    let rough = curve(&window);
+    assert!(
+        rough.points().len() < fine.points().len(),
+        "{} and {}",
+        rough.points().len(),
+        fine.points().len()
+    );
+    let note = lab(&window).shape_note.clone().unwrap_or_default();
+    assert!(note.contains("81 points drawn"), "the status line tells: {note}");
+    undo(&mut window);
+    assert_eq!(curve(&window), fine, "one step back");
+}
+
+#[test]
+fn shapes_are_chosen_by_mouse_and_a_drawing_is_undone_by_the_button() {
+    let mut window = window(None);
+    window.get_by_label("Shapes").click();
+    window.run_steps(4);
+    window.get_by_label_contains("Draw a circular arc").click();
+    window.run_steps(4);
+    click_world(&mut window, &[[-3.0, 0.0], [0.0, 1.0]]);
+    assert_eq!(drawn(&window), 2, "two points");
+    window.get_by_label("Undo").click();
+    window.run_steps(3);
+    assert_eq!(drawn(&window), 1, "one undone");
+    window.get_by_label("Redo").click();
+    window.run_steps(3);
+    click_world(&mut window, &[[3.0, 0.0]]);
+    assert!(distance(&curve(&window), DVec2::new(0.0, 1.0)) < 0.03, "an arc through the middle point");
+    keys(&mut window, Modifiers::COMMAND, Key::Num5);
+    click_world(&mut window, &[[-3.0, -1.0], [0.0, -1.0], [3.0, -1.0]]);
+    assert_eq!(document(&window).objects().len(), 1, "no circle through a line");
+    assert_eq!(drawn(&window), 2, "another last point may be chosen");
+    key(&mut window, Key::Escape);
+    assert_eq!((drawn(&window), lab(&window).tool), (0, Tool::Draw), "Escape gives up the drawing");
+    key(&mut window, Key::Escape);
+    assert_eq!(lab(&window).tool, Tool::Select, "and then the tool");
+}
+
+#[test]
+fn a_right_click_that_ends_a_drawing_opens_no_menu() {
+    let mut window = window(None);
+    key(&mut window, Key::D);
+    click_world(&mut window, &[[-3.0, 0.0], [0.0, 2.0]]);
+    let end = at(&window, 2.0, 0.0);
+    click_right(&mut window, end);
+    assert_eq!(curve(&window).points().len(), 2, "ended");
+    assert!(window.query_by_label_contains("Insert point here").is_none(), "no menu");
+}
+
+#[test]
+fn a_closed_curve_is_grabbed_across_its_seam() {
+    let points = (0..7).map(|k| DVec2::from_angle(f64::from(k) * 0.9) * 3.0).collect();
+    let before = Nurbs::closed(points, vec![1.0; 7], 3).unwrap();
+    let mut window = window(Some(before.clone()));
+    let grip = before.evaluate(0.1).unwrap();
+    let from = at(&window, grip.x, grip.y);
+    drag(&mut window, from, vec2(35.0, -25.0));
+    let after = curve(&window);
+    assert!(distance(&after, grip + DVec2::new(35.0, 25.0) / SCALE) < 0.03, "it follows");
+    assert_eq!(moved(&before, &after).len(), 4, "four active points");
+    key(&mut window, Key::X);
+    let from = handle(&window, "Edit point 5 of T");
+    drag(&mut window, from, vec2(10.0, 30.0));
+    let (old, new) = (after.edit_points().unwrap(), curve(&window).edit_points().unwrap());
+    for k in (0..7).filter(|&k| k != 5) {
+        assert!(new[k].distance(old[k]) < 1e-9, "edit point {k} stays");
+    }
+}
+
+#[test]
 fn a_grabbed_curve_follows_the_pointer_and_a_click_only_sets_t() {
     for before in [wave(), weighted()] {
         let mut window = window(Some(before.clone()));
@@ -421,6 +510,22 @@ fn a_dragged_edit_point_moves_alone_on_the_curve() {
         key(&mut window, Key::X);
         assert!(window.query_by_label("Edit point 3 of T").is_none(), "X hides them");
     }
+}
+
+#[test]
+fn a_frame_selects_points_that_are_dragged_together() {
+    let mut window = window(Some(wave()));
+    let (from, to) = (at(&window, -4.6, 4.0), at(&window, -1.4, 2.6));
+    drag(&mut window, from, to - from);
+    let chosen: Vec<usize> = lab(&window).selection.points.iter().copied().collect();
+    assert_eq!(chosen, [1, 2], "what is inside the frame");
+    let grip = handle(&window, "Control point 1 of T");
+    drag(&mut window, grip, vec2(0.0, 50.0));
+    let after = curve(&window);
+    assert_eq!(moved(&wave(), &after), [1, 2], "both move");
+    assert!((after.points()[2].y - 2.0).abs() < 1e-9, "by the same way: {}", after.points()[2]);
+    undo(&mut window);
+    assert_eq!(curve(&window), wave(), "one step back");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 #![cfg(feature = "app")]
 #![allow(clippy::unwrap_used, reason = "the functions that prepare a test fail it")]
 
-use eframe::egui::{Key, Modifiers, Vec2, vec2};
+use eframe::egui::{Key, Modifiers, Pos2, Vec2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use glam::DVec2;
@@ -163,6 +163,10 @@ fn drag_point(window: &mut Window, object: u64, point: usize, to: DVec2) {
     let scale = lab(window).view.camera.scale;
     let from = window.get_by_label(&label).rect().center();
     let by = vec2((by.x * scale) as f32, (-by.y * scale) as f32);
+    drag_by(window, from, by);
+}
+
+fn drag_by(window: &mut Window, from: Pos2, by: Vec2) {
     window.hover_at(from);
     window.step();
     window.drag_at(from);
@@ -228,6 +232,42 @@ fn a_typed_knot_makes_the_curve_pass_through_a_control_point() {
         let points = lab(&window).curve().unwrap().points();
         assert!(points.iter().any(|point| point.distance(place) < 1e-12), "{section}: {points:?}");
     }
+}
+
+#[test]
+fn a_knot_moves_while_the_parabola_stays() {
+    for keep in [false, true] {
+        let mut window = at("4.3");
+        if keep {
+            window.key_press_modifiers(Modifiers::SHIFT, Key::C);
+            window.run_steps(3);
+        }
+        let before = lab(&window).curve().unwrap().clone();
+        let from = window.get_by_label("Knot 6").rect().center();
+        drag_by(&mut window, from, vec2(-25.0, 0.0));
+        let after = lab(&window).curve().unwrap();
+        assert_ne!(after.space().knots(), before.space().knots(), "the knot has moved");
+        let away = |t: f64| after.evaluate(t).unwrap().distance(before.evaluate(t).unwrap());
+        let stays = [1.5, 4.5, 5.5, 6.5].into_iter().all(|t| away(t) < 1e-9);
+        assert_eq!(stays, keep, "keep the curve: {keep}");
+    }
+}
+
+#[test]
+fn weight_points_next_to_a_point_draw_the_curve_towards_it() {
+    let mut window = at("3.1");
+    let distance = |window: &Window| {
+        let curve = lab(window).curve().unwrap();
+        curve.evaluate(0.6).unwrap().distance(curve.points()[2])
+    };
+    let before = distance(&window);
+    press(&mut window, Key::W);
+    for (edge, by) in [("1 to 2", vec2(-43.0, -22.0)), ("2 to 3", vec2(-43.0, 11.0))] {
+        let from = window.get_by_label(&format!("Weight point {edge} of Rational cubic")).rect().center();
+        drag_by(&mut window, from, by);
+    }
+    let after = distance(&window);
+    assert!(after < 0.8 * before, "from {before} to {after}");
 }
 
 /// Clicks a number field, types, and ends with Enter.

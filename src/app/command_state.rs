@@ -2,6 +2,7 @@
 
 use eframe::egui::Context;
 
+use crate::app::chart_panel;
 use crate::app::command::Command;
 use crate::app::lab::{Lab, Tool};
 use crate::app::side_rooms::SideRoom;
@@ -43,7 +44,7 @@ pub(crate) fn is_possible(command: Command, lab: &Lab) -> bool {
     }
     match command {
         Command::BackToExample => lab.lesson.is_some(),
-        Command::ExportFrames => lab.curve().is_some(),
+        Command::ExportFrames | Command::ExportChart | Command::ToggleCharts => lab.curve().is_some(),
         Command::Undo => lab.undo_name().is_some(),
         Command::Redo => lab.redo_name().is_some(),
         Command::ExportFigure => !lab.history.document().is_empty(),
@@ -51,6 +52,8 @@ pub(crate) fn is_possible(command: Command, lab: &Lab) -> bool {
         Command::RemoveKnot => lab.curve().is_some() && lab.selection.knot.is_some(),
         Command::ElevateDegree => lab.curve().is_some_and(|curve| curve.degree() < HIGHEST_DEGREE),
         Command::ReduceDegree => lab.curve().is_some_and(|curve| curve.degree() > 1),
+        Command::JoinCurves => crate::app::curves::nearest_other(lab).is_some(),
+        Command::InterpolateEnds => lab.curve().is_some_and(|curve| !curve.space().is_periodic()),
         Command::ResetWeights => lab.curve().is_some_and(|curve| !curve.is_polynomial()),
         Command::SelectAll => {
             lab.curve().is_some() || lab.approximation().is_some() || problem(lab).is_some()
@@ -85,12 +88,28 @@ pub(crate) fn is_possible(command: Command, lab: &Lab) -> bool {
         | Command::RefineUniformly
         | Command::ToggleClosed
         | Command::Reverse
+        | Command::SplitCurve
+        | Command::TrimBefore
+        | Command::TrimAfter
+        | Command::Trim
+        | Command::BezierForm
+        | Command::TransformCurve
+        | Command::OffsetCurve
         | Command::TogglePolygon
         | Command::ToggleComb
         | Command::ToggleConstruction
         | Command::CycleLabels
         | Command::ToggleHull
         | Command::ToggleCircle
+        | Command::ToggleFrame
+        | Command::ToggleHodograph
+        | Command::ToggleBezierPoints
+        | Command::ToggleBlossomLabels
+        | Command::ToggleDistanceTube
+        | Command::ToggleInflections
+        | Command::ToggleVertices
+        | Command::ToggleSymmetry
+        | Command::ToggleProbeLine
         | Command::StepperPlay
         | Command::StepForward
         | Command::StepBack
@@ -139,9 +158,19 @@ pub(crate) fn is_on(command: Command, lab: &Lab) -> Option<bool> {
         Command::ToggleConstruction => display(|display| display.construction),
         Command::ToggleHull => display(|display| display.hull),
         Command::ToggleCircle => display(|display| display.osculating_circle),
+        Command::ToggleFrame => display(|display| display.frame),
+        Command::ToggleHodograph => display(|display| display.hodograph),
+        Command::ToggleBezierPoints => display(|display| display.bezier_points),
+        Command::ToggleBlossomLabels => display(|display| display.blossom_labels),
+        Command::ToggleDistanceTube => display(|display| display.distance_tube),
+        Command::ToggleInflections => display(|display| display.inflections),
+        Command::ToggleVertices => display(|display| display.vertices),
+        Command::ToggleSymmetry => display(|display| display.symmetry),
+        Command::ToggleProbeLine => display(|display| display.probe_line),
         Command::ToggleLeftPanel => panel(LEFT_PANEL),
         Command::ToggleRightPanel => panel(RIGHT_PANEL),
         Command::ToggleKnotLine => panel(KNOT_LINE),
+        Command::ToggleCharts => chart_panel::is_open(lab),
         Command::ToggleKeepCurve => lab.knots.keep_curve,
         Command::ToggleBuilder => lab.knots.builder.is_some(),
         Command::ShowConic => lab.rooms.shows(SideRoom::Conic),

@@ -7,6 +7,7 @@ use std::rc::Rc;
 
 use glam::DVec2;
 
+use crate::app::chart_panel::Charts;
 use crate::app::command::Command;
 use crate::app::sheet::{Sheet, Shelf};
 use crate::app::side_rooms::SideRooms;
@@ -211,10 +212,16 @@ pub struct Lab {
     pub knots: KnotHands,
     /// The rooms beside the canvas.
     pub rooms: SideRooms,
+    /// The charts.
+    pub charts: Charts,
     /// The open lesson, if any.
     pub lesson: Option<LessonState>,
     /// What the last operation did to the shape, as a sentence for the status line.
     pub shape_note: Option<String>,
+    /// What the last operation did to the shape, for the badge.
+    pub shape: ShapeChange,
+    /// The document before the last operation: curves that differ from it have a ghost.
+    pub before: Option<Document>,
     /// Messages not yet shown.
     pub messages: Vec<Message>,
     /// Commands asked for by panels, carried out at the end of the frame.
@@ -252,8 +259,11 @@ impl Lab {
             stepper: StepperState::default(),
             knots: KnotHands::default(),
             rooms: SideRooms::default(),
+            charts: Charts::default(),
             lesson: None,
             shape_note: None,
+            shape: ShapeChange::None,
+            before: None,
             messages: Vec::new(),
             commands: Vec::new(),
             canvas_size: DVec2::new(800.0, 600.0),
@@ -271,6 +281,7 @@ impl Lab {
         self.stepper = StepperState { open: self.stepper.open, ..StepperState::default() };
         self.rooms.space = None;
         self.shape_note = None;
+        self.before = None;
         self.shelf.opened += 1;
         Sheet {
             history: std::mem::replace(&mut self.history, sheet.history),
@@ -341,13 +352,18 @@ impl Lab {
 
     /// Applies `edit` as one undo step; says what happened to the shape, or why it could not be done.
     pub fn edit(&mut self, edit: Edit) -> Option<Outcome> {
+        let before = self.history.document().clone();
         let result = self.history.apply(edit);
+        if result.is_ok() {
+            self.before = Some(before);
+        }
         self.report(result)
     }
 
     /// Starts an interaction such as a drag; see [`History::begin`].
     pub fn begin(&mut self, name: impl Into<String>) {
         if !self.history.is_interacting() {
+            self.before = Some(self.history.document().clone());
             self.history.begin(name);
         }
     }
@@ -448,6 +464,7 @@ impl Lab {
     }
 
     fn note_shape(&mut self, shape: &ShapeChange) {
+        self.shape = *shape;
         self.shape_note = shape.sentence();
     }
 }

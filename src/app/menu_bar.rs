@@ -58,6 +58,8 @@ fn starts_group(command: Command) -> bool {
             | Command::RefineU
             | Command::ToggleParallel
             | Command::ToggleClosed
+            | Command::SplitCurve
+            | Command::ResetWeights
             | Command::ToggleGrid
             | Command::ToggleLeftPanel
             | Command::LookLight

@@ -9,6 +9,7 @@ pub mod lab;
 pub mod sheet;
 
 mod approximation;
+pub mod chart_panel;
 mod command_state;
 mod curves;
 mod dialog;
@@ -55,5 +56,7 @@ pub(crate) const LEFT_PANEL: &str = "left";
 pub(crate) const RIGHT_PANEL: &str = "right";
 /// Entry for the knot line.
 pub(crate) const KNOT_LINE: &str = "knot_line";
+/// Entry for the charts in place of the knot line.
+pub(crate) const CHARTS: &str = "charts";
 /// Entry for the basis builder, which is shut unless it is there.
 pub(crate) const BASIS_BUILDER: &str = "basis_builder";

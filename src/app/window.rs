@@ -256,6 +256,7 @@ impl LabApp {
                 let step = if command == Command::Undo { lab.history.undo() } else { lab.history.redo() };
                 if step.is_some() {
                     lab.shape_note = None;
+                    lab.before = None;
                     lab.tidy_selection();
                 }
             }

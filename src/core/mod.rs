@@ -44,8 +44,8 @@
 //! | B.3 Measured deviation | `spline_curve/{deviation, hausdorff}` |
 //! | B.4 Arc length | `spline_curve/arc_length`, `bezier/arc_length` |
 //! | B.5 Closest points | `spline_curve/{closest_point, foot_points}`, `rational_bezier/closest_point`, `bounding_tree` |
-//! | B.6 Intersections | `spline_curve/{line_intersection, curve_intersection, self_intersection}`, `rational_bezier/intersection` |
-//! | B.7 Inflections, vertices, boxes, torsion | `spline_curve/{curvature, inflections, vertices, tight_box}`, `bezier/{curvature, inflections}` |
+//! | B.6 Intersections | `spline_curve/{line_intersection, curve_intersection, self_intersection, intersection_tree}`, `rational_bezier/intersection` |
+//! | B.7 Inflections, vertices, boxes, torsion | `spline_curve/{curvature, inflections, vertices, tight_box, symmetry, joint}`, `bezier/{curvature, inflections}` |
 //! | B.8 Rational tessellation | `rational_bezier/chord_bound`, `spline_curve/chord_polygon` |
 //! | B.12 Circles, arcs and conics | `rational_bezier/{circle, conic_arc}` |
 //! | B.16 Fitting a stroke | `spline_curve/{fitting, fitting_stroke}` |

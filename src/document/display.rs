@@ -1,5 +1,6 @@
 //! How a curve is shown.
 
+use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
 use crate::document::edit_error::EditError;
@@ -34,6 +35,27 @@ pub struct CurveDisplay {
     pub osculating_circle: bool,
     /// The polynomial pieces in alternating colours.
     pub pieces: bool,
+    /// Tangent and normal at the parameter.
+    pub frame: bool,
+    /// The derivative as a curve, in a corner of the sheet.
+    pub hodograph: bool,
+    /// The Bezier polygons of all pieces.
+    pub bezier_points: bool,
+    /// The knots beside their control point, as arguments of the blossom.
+    pub blossom_labels: bool,
+    /// Where the curve must run, by the bound of its distance from the polygon.
+    pub distance_tube: bool,
+    /// Where the curvature changes its sign.
+    pub inflections: bool,
+    /// Where the curvature is extreme.
+    pub vertices: bool,
+    /// The axis or the centre of the nearest symmetry, with the distance from it.
+    pub symmetry: bool,
+    /// A line whose crossings with curve and polygon are counted.
+    pub probe_line: bool,
+    /// Two points of the probe line; without them it runs level through the middle of the control points.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub probe: Option<[DVec2; 2]>,
 }
 
 /// What is written beside the control points.
@@ -75,6 +97,13 @@ impl CurveDisplay {
                 return Err(EditError::BadDisplay { field, value, low: *range.start(), high: *range.end() });
             }
         }
+        // Coordinates beyond this have squares that are no numbers.
+        let range = -1e150..=1e150;
+        for value in self.probe.iter().flatten().flat_map(|point| point.to_array()) {
+            if !range.contains(&value) {
+                return Err(EditError::BadDisplay { field: "probe", value, low: -1e150, high: 1e150 });
+            }
+        }
         Ok(())
     }
 }
@@ -95,6 +124,16 @@ impl Default for CurveDisplay {
             hull: false,
             osculating_circle: false,
             pieces: false,
+            frame: false,
+            hodograph: false,
+            bezier_points: false,
+            blossom_labels: false,
+            distance_tube: false,
+            inflections: false,
+            vertices: false,
+            symmetry: false,
+            probe_line: false,
+            probe: None,
         }
     }
 }

@@ -264,6 +264,56 @@ pub enum Edit {
         /// The fixed point.
         about: DVec2,
     },
+    /// Cuts a curve into two objects, the second of them new; a closed curve is opened there. The shape is kept.
+    SplitCurve {
+        /// The curve.
+        object: ObjectId,
+        /// The parameter, inside the interval.
+        at: f64,
+    },
+    /// One curve from two open ones, joined where their ends are nearest; an open gap is closed in its middle. The result takes the
+    /// place, the look and the direction of the first one.
+    JoinCurves {
+        /// The curve that stays.
+        object: ObjectId,
+        /// The curve that goes.
+        other: ObjectId,
+    },
+    /// Keeps the part between two parameters; of a closed curve, `to` may lie behind the end of the period.
+    TrimCurve {
+        /// The curve.
+        object: ObjectId,
+        /// Where the part begins.
+        from: f64,
+        /// Where it ends.
+        to: f64,
+    },
+    /// Makes all knots `n`-fold: the control points are those of the Bezier curves; the shape is kept.
+    ToBezierForm {
+        /// The curve.
+        object: ObjectId,
+    },
+    /// Makes both end knots of an open curve `n`-fold: it then begins and ends at control points; the shape is kept.
+    InterpolateEnds {
+        /// The curve.
+        object: ObjectId,
+    },
+    /// Maps a whole curve.
+    TransformCurve {
+        /// The curve.
+        object: ObjectId,
+        /// How.
+        map: CurveMap,
+    },
+    /// A new curve at a distance, directly above the original.
+    OffsetCurve {
+        /// The original.
+        object: ObjectId,
+        /// Positive to the left of the direction of the curve.
+        distance: f64,
+        /// The largest distance from the true offset curve.
+        tolerance: f64,
+    },
     /// Puts another curve in place of one.
     ReplaceCurve {
         /// The curve.
@@ -318,11 +368,63 @@ impl Edit {
             Self::InsertPoint { before, .. } => format!("Insert point {before}"),
             Self::AppendPoint { .. } => "Add point".to_owned(),
             Self::DeletePoints { points, .. } => counted("Delete", points.len(), "point"),
+            Self::SplitCurve { at, .. } => format!("Split at {}", short(*at)),
+            Self::JoinCurves { .. } => "Join curves".to_owned(),
+            Self::TrimCurve { from, to, .. } => format!("Trim to {} … {}", short(*from), short(*to)),
+            Self::ToBezierForm { .. } => "To Bezier form".to_owned(),
+            Self::InterpolateEnds { .. } => "Interpolate ends".to_owned(),
+            Self::TransformCurve { map, .. } => map.name(),
+            Self::OffsetCurve { distance, .. } => format!("Offset by {}", short(*distance)),
             Self::Reverse { .. } => "Reverse".to_owned(),
             Self::TransformPoints { points, .. } => counted("Transform", points.len(), "point"),
             Self::SetContent { label, .. } | Self::ReplaceCurve { label, .. } | Self::Batch { label, .. } => {
                 label.clone()
             }
+        }
+    }
+}
+
+/// An affine map of the plane. Angles count counterclockwise from the x-axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CurveMap {
+    /// A translation.
+    Move {
+        /// The vector.
+        by: DVec2,
+    },
+    /// A rotation.
+    Rotate {
+        /// The angle.
+        degrees: f64,
+        /// The centre.
+        about: DVec2,
+    },
+    /// Another size, or sizes along both axes.
+    Scale {
+        /// Factors for x and y, not 0.
+        factors: DVec2,
+        /// The point that stays.
+        about: DVec2,
+    },
+    /// A reflection in a line.
+    Mirror {
+        /// The angle of the line.
+        degrees: f64,
+        /// A point of the line.
+        through: DVec2,
+    },
+}
+
+impl CurveMap {
+    fn name(self) -> String {
+        match self {
+            Self::Move { by } => format!("Move by ({}, {})", short(by.x), short(by.y)),
+            Self::Rotate { degrees, .. } => format!("Rotate by {}°", short(degrees)),
+            Self::Scale { factors, .. } if factors.x.to_bits() == factors.y.to_bits() => {
+                format!("Scale by {}", short(factors.x))
+            }
+            Self::Scale { factors, .. } => format!("Scale by ({}, {})", short(factors.x), short(factors.y)),
+            Self::Mirror { degrees, .. } => format!("Mirror in a line at {}°", short(degrees)),
         }
     }
 }

@@ -27,6 +27,24 @@ pub enum EditError {
         /// What it should be.
         wanted: &'static str,
     },
+    /// A closed curve has no ends.
+    #[error("object {object} is closed and has no ends")]
+    NoEnds {
+        /// The curve.
+        object: ObjectId,
+    },
+    /// A curve has itself as the other one.
+    #[error("object {object} cannot be joined with itself; use Close curve")]
+    JoinedWithItself {
+        /// The curve.
+        object: ObjectId,
+    },
+    /// A factor would flatten a curve.
+    #[error("a curve cannot be scaled by {value}")]
+    FactorZero {
+        /// The factor.
+        value: f64,
+    },
     /// A curve has no point with this index.
     #[error("object {object} has no point {index}; its {count} points are numbered from 0")]
     NoSuchPoint {
@@ -169,6 +187,9 @@ impl EditError {
         match self {
             Self::NoSuchObject { .. } => "NoSuchObject",
             Self::OtherKind { .. } => "OtherKind",
+            Self::NoEnds { .. } => "NoEnds",
+            Self::JoinedWithItself { .. } => "JoinedWithItself",
+            Self::FactorZero { .. } => "FactorZero",
             Self::NoSuchPoint { .. } => "NoSuchPoint",
             Self::NoSuchKnot { .. } => "NoSuchKnot",
             Self::NotAKnot { .. } => "NotAKnot",

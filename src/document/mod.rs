@@ -32,7 +32,7 @@ pub use approximation::{
 };
 pub use contents::Document;
 pub use display::{CurveDisplay, PointLabels};
-pub use edit::{Edit, MAX_EDIT_DEGREE};
+pub use edit::{CurveMap, Edit, MAX_EDIT_DEGREE};
 pub use edit_error::EditError;
 pub use eye::{EyeError, EyeState};
 pub use file_error::FileError;

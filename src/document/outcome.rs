@@ -30,6 +30,11 @@ pub enum ShapeChange {
         /// A parameter where the distance is largest among those sampled.
         at: Option<f64>,
     },
+    /// A new curve approximates one that no spline is.
+    Approximated {
+        /// The largest distance measured.
+        deviation: f64,
+    },
 }
 
 impl ShapeChange {
@@ -37,6 +42,10 @@ impl ShapeChange {
     pub fn sentence(&self) -> Option<String> {
         match *self {
             Self::None => None,
+            Self::Approximated { deviation: 0.0 } => Some("The new curve is exact.".to_owned()),
+            Self::Approximated { deviation } => Some(format!(
+                "The new curve is an approximation (measured deviation at most {deviation:.1e})."
+            )),
             Self::Kept { deviation: 0.0 } => Some("The shape is kept exactly.".to_owned()),
             Self::Kept { deviation } => {
                 Some(format!("The shape is kept (deviation at most {deviation:.1e})."))

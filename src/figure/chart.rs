@@ -74,6 +74,33 @@ pub struct Axis {
     pub range: Option<(f64, f64)>,
 }
 
+/// Where the data stand on the page: the corners between the axes, and the numbers at their ends (logarithms on a logarithmic axis).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ChartArea {
+    /// Lower left corner in pt.
+    pub low: DVec2,
+    /// Upper right corner in pt.
+    pub high: DVec2,
+    /// What the horizontal axis shows.
+    pub x: (f64, f64),
+    /// What the vertical axis shows.
+    pub y: (f64, f64),
+}
+
+impl ChartArea {
+    /// On the page, from numbers on the axes.
+    pub fn page(&self, x: f64, y: f64) -> DVec2 {
+        let part = |value: f64, (low, high): (f64, f64)| (value - low) / (high - low);
+        self.low + (self.high - self.low) * DVec2::new(part(x, self.x), part(y, self.y))
+    }
+
+    /// The number on the horizontal axis, from a place on the page.
+    pub fn x_at(&self, page_x: f64) -> f64 {
+        let share = (page_x - self.low.x) / (self.high.x - self.low.x);
+        self.x.0 + share * (self.x.1 - self.x.0)
+    }
+}
+
 /// Series over two axes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Chart {
@@ -93,8 +120,14 @@ impl Chart {
         Viewport { center: size * 0.5, scale: 1.0, size }
     }
 
-    /// The chart on a page of `size` pt.
-    pub fn to_picture(&self, theme: &Theme, size: DVec2) -> Picture {
+    /// Where the data stand on a page of `size` pt.
+    pub fn area(&self, theme: &Theme, size: DVec2) -> ChartArea {
+        let Plot { low, high, x, y } = self.plot(theme, size).0;
+        ChartArea { low, high, x: x.ends, y: y.ends }
+    }
+
+    /// The rectangle between the axes, and the ticks beside it.
+    fn plot(&self, theme: &Theme, size: DVec2) -> (Plot, Vec<Tick>) {
         let x = ScaledAxis::new(
             &self.x,
             self.series.iter().flat_map(|series| &series.points).map(|point| point.x),
@@ -114,7 +147,15 @@ impl Chart {
         let widest = y_ticks.iter().map(|tick| label_width(&tick.label, number_size)).fold(0.0, f64::max);
         let low = DVec2::new(widest + 2.5 * GAP, lower);
         let high = DVec2::new(size.x - 2.5 * GAP, size.y - upper - above_axis).max(low + 1.0);
-        let plot = Plot { low, high, x, y };
+        (Plot { low, high, x, y }, y_ticks)
+    }
+
+    /// The chart on a page of `size` pt.
+    pub fn to_picture(&self, theme: &Theme, size: DVec2) -> Picture {
+        let (plot, y_ticks) = self.plot(theme, size);
+        let (low, high) = (plot.low, plot.high);
+        let type_scale = theme.text_scale;
+        let (name_size, title_size) = (NAME_SIZE * type_scale, TITLE_SIZE * type_scale);
         let x_ticks = plot.x.ticks((high.x - low.x) / TICK_SPACING.x);
 
         let mut picture = Picture::new(Some(theme.background));
@@ -271,8 +312,7 @@ struct Plot {
 impl Plot {
     /// On the page, from numbers on the axes.
     fn page(&self, x: f64, y: f64) -> DVec2 {
-        let part = |value: f64, (low, high): (f64, f64)| (value - low) / (high - low);
-        self.low + (self.high - self.low) * DVec2::new(part(x, self.x.ends), part(y, self.y.ends))
+        ChartArea { low: self.low, high: self.high, x: self.x.ends, y: self.y.ends }.page(x, y)
     }
 
     fn grid(&self, x_ticks: &[Tick], y_ticks: &[Tick], theme: &Theme) -> Vec<Item> {

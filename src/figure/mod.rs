@@ -8,6 +8,7 @@ pub mod color_map;
 pub mod comb;
 pub mod composition;
 pub mod curve;
+pub mod curve_chart;
 pub mod elements;
 pub mod error;
 pub mod field;

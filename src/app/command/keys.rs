@@ -54,6 +54,16 @@ impl Command {
             Self::ElevateDegree => (NONE, Key::E),
             Self::ReduceDegree => (Modifiers::SHIFT, Key::E),
             Self::ToggleClosed => (NONE, Key::C),
+            Self::Reverse => (NONE, Key::Q),
+            Self::SplitCurve => (NONE, Key::S),
+            Self::JoinCurves => (NONE, Key::J),
+            Self::TrimBefore => (Modifiers::ALT, Key::B),
+            Self::TrimAfter => (Modifiers::ALT, Key::A),
+            Self::Trim => (NONE, Key::T),
+            Self::BezierForm => (NONE, Key::Z),
+            Self::InterpolateEnds => (NONE, Key::I),
+            Self::TransformCurve => (NONE, Key::M),
+            Self::OffsetCurve => (NONE, Key::Y),
             Self::LevelUp => (NONE, Key::CloseBracket),
             Self::LevelDown => (NONE, Key::OpenBracket),
             Self::ToggleNet => (NONE, Key::P),
@@ -83,12 +93,22 @@ impl Command {
             Self::CycleLabels => (NONE, Key::L),
             Self::ToggleHull => (NONE, Key::H),
             Self::ToggleCircle => (NONE, Key::O),
+            Self::ToggleFrame => (Modifiers::SHIFT, Key::T),
+            Self::ToggleHodograph => (Modifiers::SHIFT, Key::H),
+            Self::ToggleBezierPoints => (Modifiers::SHIFT, Key::Z),
+            Self::ToggleBlossomLabels => (Modifiers::SHIFT, Key::L),
+            Self::ToggleDistanceTube => (Modifiers::SHIFT, Key::D),
+            Self::ToggleInflections => (Modifiers::SHIFT, Key::I),
+            Self::ToggleVertices => (Modifiers::SHIFT, Key::V),
+            Self::ToggleSymmetry => (Modifiers::SHIFT, Key::S),
+            Self::ToggleProbeLine => (Modifiers::SHIFT, Key::P),
             Self::ToggleLeftPanel => (NONE, Key::F2),
             Self::ToggleRightPanel => (NONE, Key::F3),
             Self::ToggleKnotLine => (NONE, Key::F4),
             Self::ShowConic => (Modifiers::ALT, Key::C),
             Self::ShowHomogeneous => (Modifiers::ALT, Key::H),
             Self::ShowHermite => (Modifiers::ALT, Key::E),
+            Self::ToggleCharts => (NONE, Key::F9),
             Self::LookLight => (NONE, Key::F6),
             Self::LookDark => (NONE, Key::F7),
             Self::LookPresentation => (NONE, Key::F8),
@@ -104,6 +124,7 @@ impl Command {
             Self::ShortcutSheet => (NONE, Key::F1),
             Self::ImportMesh
             | Self::ExportMesh
+            | Self::ExportChart
             | Self::RefineU
             | Self::RefineV
             | Self::ElevateU
@@ -115,7 +136,6 @@ impl Command {
             | Self::NewApproximation
             | Self::SampleFunction
             | Self::FirstScene
-            | Self::Reverse
             | Self::UniformKnots
             | Self::EndInterpolatingKnots
             | Self::ChordLengthKnots

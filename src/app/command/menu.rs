@@ -78,12 +78,23 @@ impl Command {
             | Self::CycleLabels
             | Self::ToggleHull
             | Self::ToggleCircle
+            | Self::ToggleFrame
+            | Self::ToggleHodograph
+            | Self::ToggleBezierPoints
+            | Self::ToggleBlossomLabels
+            | Self::ToggleDistanceTube
+            | Self::ToggleInflections
+            | Self::ToggleVertices
+            | Self::ToggleSymmetry
+            | Self::ToggleProbeLine
             | Self::ToggleKnotLine
+            | Self::ToggleCharts
             | Self::ToggleBuilder
             | Self::ShowConic
             | Self::ShowHomogeneous
             | Self::ShowHermite
             | Self::ExportFrames
+            | Self::ExportChart
             | Self::StepperPlay
             | Self::StepForward
             | Self::StepBack
@@ -103,6 +114,7 @@ impl Command {
             | Self::SaveAs
             | Self::ExportFigure
             | Self::ExportFrames
+            | Self::ExportChart
             | Self::ImportMesh
             | Self::ExportMesh
             | Self::ImportData
@@ -131,6 +143,15 @@ impl Command {
             | Self::ReduceDegree
             | Self::ToggleClosed
             | Self::Reverse
+            | Self::SplitCurve
+            | Self::JoinCurves
+            | Self::TrimBefore
+            | Self::TrimAfter
+            | Self::Trim
+            | Self::BezierForm
+            | Self::InterpolateEnds
+            | Self::TransformCurve
+            | Self::OffsetCurve
             | Self::ResetWeights
             | Self::DrawThrough
             | Self::DrawStroke

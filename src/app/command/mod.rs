@@ -21,6 +21,8 @@ pub enum Command {
     ExportFigure,
     /// Writes all frames of the algorithm that is stepped through.
     ExportFrames,
+    /// Writes the chart of the selected curve.
+    ExportChart,
     /// Adds the mesh of an OBJ file.
     ImportMesh,
     /// Writes the selected mesh at the level shown.
@@ -107,6 +109,24 @@ pub enum Command {
     ToggleClosed,
     /// Reverses the direction.
     Reverse,
+    /// Cuts the curve at the selected knot or at t.
+    SplitCurve,
+    /// Joins the nearest end of another curve.
+    JoinCurves,
+    /// Keeps the part before t.
+    TrimBefore,
+    /// Keeps the part after t.
+    TrimAfter,
+    /// Asks for the interval to keep.
+    Trim,
+    /// All knots n-fold.
+    BezierForm,
+    /// End knots n-fold.
+    InterpolateEnds,
+    /// Asks for a map of the whole curve.
+    TransformCurve,
+    /// Asks for the distance of a parallel curve.
+    OffsetCurve,
     /// All weights 1.
     ResetWeights,
     /// Handles on the curve on or off.
@@ -191,6 +211,24 @@ pub enum Command {
     ToggleHull,
     /// Circle of curvature on or off.
     ToggleCircle,
+    /// Frame at t on or off.
+    ToggleFrame,
+    /// Hodograph on or off.
+    ToggleHodograph,
+    /// Bezier points on or off.
+    ToggleBezierPoints,
+    /// Blossom labels on or off.
+    ToggleBlossomLabels,
+    /// Distance tube on or off.
+    ToggleDistanceTube,
+    /// Inflections on or off.
+    ToggleInflections,
+    /// Curvature extrema on or off.
+    ToggleVertices,
+    /// Symmetry on or off.
+    ToggleSymmetry,
+    /// Probe line on or off.
+    ToggleProbeLine,
     /// Objects and lessons on or off.
     ToggleLeftPanel,
     /// Inspector, stepper and lesson on or off.
@@ -203,6 +241,8 @@ pub enum Command {
     ShowHomogeneous,
     /// Cubics with given ends, in the right panel.
     ShowHermite,
+    /// Charts in place of the knot line.
+    ToggleCharts,
     /// Light look.
     LookLight,
     /// Dark look.
@@ -233,13 +273,14 @@ pub enum Command {
 
 impl Command {
     /// All commands, in the order of menus, palette and sheet.
-    pub const ALL: [Self; 110] = [
+    pub const ALL: [Self; 130] = [
         Self::New,
         Self::Open,
         Self::Save,
         Self::SaveAs,
         Self::ExportFigure,
         Self::ExportFrames,
+        Self::ExportChart,
         Self::ImportMesh,
         Self::ExportMesh,
         Self::ImportData,
@@ -283,6 +324,15 @@ impl Command {
         Self::ReduceDegree,
         Self::ToggleClosed,
         Self::Reverse,
+        Self::SplitCurve,
+        Self::JoinCurves,
+        Self::TrimBefore,
+        Self::TrimAfter,
+        Self::Trim,
+        Self::BezierForm,
+        Self::InterpolateEnds,
+        Self::TransformCurve,
+        Self::OffsetCurve,
         Self::ResetWeights,
         Self::ToggleEditPoints,
         Self::ToggleWeightPoints,
@@ -325,12 +375,22 @@ impl Command {
         Self::CycleLabels,
         Self::ToggleHull,
         Self::ToggleCircle,
+        Self::ToggleFrame,
+        Self::ToggleHodograph,
+        Self::ToggleBezierPoints,
+        Self::ToggleBlossomLabels,
+        Self::ToggleDistanceTube,
+        Self::ToggleInflections,
+        Self::ToggleVertices,
+        Self::ToggleSymmetry,
+        Self::ToggleProbeLine,
         Self::ToggleLeftPanel,
         Self::ToggleRightPanel,
         Self::ToggleKnotLine,
         Self::ShowConic,
         Self::ShowHomogeneous,
         Self::ShowHermite,
+        Self::ToggleCharts,
         Self::LookLight,
         Self::LookDark,
         Self::LookPresentation,

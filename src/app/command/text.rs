@@ -15,6 +15,10 @@ impl Command {
                 "Export frames…",
                 "Write every step of the algorithm: numbered SVG or PNG, one PDF, or a TikZ slide with overlays",
             ),
+            Self::ExportChart => (
+                "Export chart…",
+                "Write the chart of the selected curve as SVG, PDF or PNG, or its numbers as CSV",
+            ),
             Self::ImportData => {
                 ("Import data…", "Read a table of x and y, with weights if wanted, from a CSV file")
             }
@@ -113,6 +117,30 @@ impl Command {
             Self::ReduceDegree => ("Lower degree", "One degree down; the deviation is measured"),
             Self::ToggleClosed => ("Close or open", "Close an open curve, open a closed one"),
             Self::Reverse => ("Reverse direction", "Run through the curve the other way"),
+            Self::SplitCurve => {
+                ("Split", "Two curves at the selected knot or at t; a closed curve is opened there")
+            }
+            Self::JoinCurves => {
+                ("Join", "One curve with the open curve whose end is nearest; a gap is closed in its middle")
+            }
+            Self::TrimBefore => (
+                "Keep the part before t",
+                "Cut the curve at t and drop what lies behind; the rest keeps its shape",
+            ),
+            Self::TrimAfter => (
+                "Keep the part after t",
+                "Cut the curve at t and drop what lies before; the rest keeps its shape",
+            ),
+            Self::Trim => ("Trim…", "Keep the part between two parameters"),
+            Self::BezierForm => (
+                "To Bezier form",
+                "Make all knots n-fold: the control points of the Bezier curves; the shape is kept",
+            ),
+            Self::InterpolateEnds => ("Interpolate ends", "Make both end knots n-fold; the shape is kept"),
+            Self::TransformCurve => {
+                ("Transform…", "Move, rotate, scale or mirror the whole curve by numbers")
+            }
+            Self::OffsetCurve => ("Offset…", "A curve at a distance from this one, within a tolerance"),
             Self::ResetWeights => ("All weights 1", "Make the curve polynomial"),
             Self::ImportMesh => ("Import mesh…", "Add the mesh of an OBJ file to the document"),
             Self::ExportMesh => ("Export mesh…", "Write the selected mesh as OBJ, refined as it is shown"),
@@ -159,6 +187,29 @@ impl Command {
             Self::CycleLabels => ("Point labels", "None, index, weight, coordinates in turn"),
             Self::ToggleHull => ("Convex hull at t", "Show or hide the hull of the active control points"),
             Self::ToggleCircle => ("Circle of curvature", "Show or hide the osculating circle at t"),
+            Self::ToggleFrame => ("Frame at t", "The unit tangent T and the unit normal N at t"),
+            Self::ToggleHodograph => {
+                ("Hodograph", "Show or hide the curve of the derivative, with its vector at t")
+            }
+            Self::ToggleBezierPoints => ("Bezier points", "Show or hide the Bezier points of all pieces"),
+            Self::ToggleBlossomLabels => (
+                "Blossom labels",
+                "Write the knots of each control point beside it, as arguments of the blossom",
+            ),
+            Self::ToggleDistanceTube => (
+                "Distance tube",
+                "Show or hide the tube around the polygon that holds the curve, with the bound and what is measured",
+            ),
+            Self::ToggleInflections => ("Inflections", "Mark where the curvature changes its sign"),
+            Self::ToggleVertices => {
+                ("Curvature extrema", "Mark where the curvature is locally largest or smallest")
+            }
+            Self::ToggleSymmetry => {
+                ("Symmetry", "Show the nearest axis or centre of symmetry, and how far the curve is from it")
+            }
+            Self::ToggleProbeLine => {
+                ("Probe line", "A line that counts its crossings with the curve and with its polygon")
+            }
             Self::ToggleLeftPanel => ("Objects and lessons", "Show or hide the left panel"),
             Self::ToggleRightPanel => ("Inspector and stepper", "Show or hide the right panel"),
             Self::ToggleKnotLine => ("Knot line", "Show or hide the knot line"),
@@ -172,6 +223,7 @@ impl Command {
                 "Geometric Hermite interpolation",
                 "All cubics with given end points, directions and curvatures",
             ),
+            Self::ToggleCharts => ("Charts", "Curvature, speed, x and y in place of the knot line"),
             Self::LookLight => ("Light look", "Dark ink on a light ground"),
             Self::LookDark => ("Dark look", "Light ink on a dark ground"),
             Self::LookPresentation => ("Presentation look", "Large type and thick lines for a projector"),

@@ -9,9 +9,11 @@ use crate::app::curves::commands;
 use crate::app::curves::context_menu;
 use crate::app::curves::draw_tool::Drawing;
 use crate::app::curves::gesture::Gesture;
+use crate::app::curves::ghost;
 use crate::app::curves::handles;
 use crate::app::curves::hermite_hands::HermiteHands;
 use crate::app::curves::hit::{Target, Trees, target_at};
+use crate::app::curves::probe_hands::ProbeHands;
 use crate::app::curves::step_hands::{self, StepHands};
 use crate::app::hands;
 use crate::app::lab::{DrawMode, Hovered, Lab, Tool};
@@ -37,6 +39,7 @@ pub(crate) struct Canvas {
     drawing: Drawing,
     step_hands: StepHands,
     hermite_hands: HermiteHands,
+    probe_hands: ProbeHands,
     menu_target: Target,
     /// Where the menu was asked for.
     menu_place: DVec2,
@@ -76,18 +79,21 @@ impl Canvas {
         hands::move_camera(&mut lab.view.camera, &mut self.panning, busy, &response, rect, ui);
         let viewport = viewport(lab);
         let pointer = ui.input(|input| input.pointer.hover_pos()).filter(|_| response.contains_pointer());
+        let was_drawing = lab.tool == Tool::Draw;
         // What is dragged stays the target, and nothing has to be searched.
         let target = match (&self.gesture, pointer) {
+            _ if was_drawing => Target::Nothing,
             (Some(gesture), _) => gesture.target(),
             (None, Some(pointer)) => target_at(lab, &mut self.trees, &viewport, rect, pointer),
             (None, None) => Target::Nothing,
         };
-        if lab.tool != Tool::Draw {
-            self.drawing.clear();
-            lab.drawn = (0, 0);
+        if !was_drawing {
+            let held = ui.input(|input| input.pointer.primary_down());
+            self.drawing.rest(lab, held);
         }
         if !self.step_hands.drag(lab, &response, &viewport, rect, ui)
             && !self.hermite_hands.drag(lab, &response, &viewport, rect, ui)
+            && !self.probe_hands.drag(lab, &response, &viewport, rect, ui)
         {
             self.use_hands(lab, &response, &viewport, rect, target, ui);
         }
@@ -97,6 +103,7 @@ impl Canvas {
         step_hands::hover(lab, target, pointer, &viewport, rect);
         self.paint(lab, &viewport, rect, pointer, ui);
         handles::announce(self.named(lab), &viewport, rect, ui);
+        ProbeHands::announce(lab, &viewport, rect, ui);
         self.point_cursor(lab, target, pointer, ui);
         if response.secondary_clicked() {
             self.menu_target = target;
@@ -107,7 +114,8 @@ impl Canvas {
                 lab.selection.object = Some(object);
             }
         }
-        if lab.tool == Tool::Select {
+        // The right click that ends a drawing asks for no menu.
+        if !was_drawing && lab.tool == Tool::Select {
             let (target, place) = (self.menu_target, self.menu_place);
             response.context_menu(|ui| context_menu::show(target, place, lab, ui));
         }
@@ -153,6 +161,7 @@ impl Canvas {
                 align::execute(command, lab);
             }
             Command::Escape => {
+                lab.before = None;
                 if self.gesture.take().is_some() {
                     lab.history.cancel();
                 } else if lab.tool == Tool::Draw {
@@ -277,6 +286,7 @@ impl Canvas {
         let mut picture = compose_with(lab.history.document(), &lab.view, &lab.theme, viewport, &choices);
         side_rooms::lay_over(side_rooms::overlay(lab, viewport), &mut picture);
         paint_picture(&picture, viewport, rect, &painter);
+        ghost::paint(lab, viewport, rect, &painter);
         self.step_hands.paint(lab, viewport, rect, &painter, ui);
         self.hermite_hands.paint(lab, viewport, rect, &painter, ui);
         let along = self.gesture.as_ref().map_or(0.0, Gesture::along);

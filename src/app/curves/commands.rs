@@ -59,6 +59,15 @@ pub(super) fn edit_selected(command: Command, lab: &mut Lab) -> bool {
         Command::ToggleConstruction => change(|display| display.construction = !display.construction),
         Command::ToggleHull => change(|display| display.hull = !display.hull),
         Command::ToggleCircle => change(|display| display.osculating_circle = !display.osculating_circle),
+        Command::ToggleFrame => change(|display| display.frame = !display.frame),
+        Command::ToggleHodograph => change(|display| display.hodograph = !display.hodograph),
+        Command::ToggleBezierPoints => change(|display| display.bezier_points = !display.bezier_points),
+        Command::ToggleBlossomLabels => change(|display| display.blossom_labels = !display.blossom_labels),
+        Command::ToggleDistanceTube => change(|display| display.distance_tube = !display.distance_tube),
+        Command::ToggleInflections => change(|display| display.inflections = !display.inflections),
+        Command::ToggleVertices => change(|display| display.vertices = !display.vertices),
+        Command::ToggleSymmetry => change(|display| display.symmetry = !display.symmetry),
+        Command::ToggleProbeLine => change(|display| display.probe_line = !display.probe_line),
         Command::CycleLabels => change(|display| {
             display.labels = match display.labels {
                 PointLabels::None => PointLabels::Index,
@@ -81,7 +90,6 @@ pub(super) fn edit_selected(command: Command, lab: &mut Lab) -> bool {
                 return true;
             }
         },
-        Command::RefineUniformly => Edit::RefineUniformly { object },
         Command::ElevateDegree => Edit::ElevateDegree { object },
         Command::ReduceDegree => Edit::ReduceDegree { object },
         Command::ToggleClosed => {

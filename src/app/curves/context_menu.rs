@@ -6,6 +6,7 @@ use glam::DVec2;
 use crate::app::command::Command;
 use crate::app::curves::commands::insert_point;
 use crate::app::curves::hit::{Target, nearest_edge};
+use crate::app::curves::operations;
 use crate::app::curves::weight_handles::{edge_end, weights_for_weight_point};
 use crate::app::lab::{DrawMode, Lab};
 use crate::document::Edit;
@@ -46,6 +47,15 @@ pub(super) fn show(target: Target, place: DVec2, lab: &mut Lab, ui: &mut Ui) {
             if ui.button("Insert knot here (shape kept)").clicked() {
                 lab.edit(Edit::InsertKnot { object, at: parameter });
             }
+            if ui.button("Split here").clicked() {
+                operations::split(object, parameter, lab);
+            }
+            if ui.button("Keep the part before").clicked() {
+                operations::trim_at(object, parameter, true, lab);
+            }
+            if ui.button("Keep the part after").clicked() {
+                operations::trim_at(object, parameter, false, lab);
+            }
             if ui.button("Look at this t").clicked() {
                 lab.set_parameter(object, parameter);
             }
@@ -59,6 +69,9 @@ pub(super) fn show(target: Target, place: DVec2, lab: &mut Lab, ui: &mut Ui) {
             if ui.button("One more copy (shape kept)").clicked() {
                 lab.edit(Edit::InsertKnot { object, at: value });
             }
+            if ui.button("Split here").clicked() {
+                operations::split(object, value, lab);
+            }
             if ui.button("Remove one copy").clicked() {
                 lab.edit(Edit::RemoveKnot { object, at: value });
             }
@@ -70,6 +83,9 @@ pub(super) fn show(target: Target, place: DVec2, lab: &mut Lab, ui: &mut Ui) {
                 ui.weak(format!("t = {}", short_number(parameter)));
             }
             entry(Command::InsertKnot, lab, ui);
+            entry(Command::SplitCurve, lab, ui);
+            entry(Command::TrimBefore, lab, ui);
+            entry(Command::TrimAfter, lab, ui);
             entry(Command::ToggleConstruction, lab, ui);
             entry(Command::ToggleCircle, lab, ui);
             entry(Command::ToggleHull, lab, ui);
@@ -125,6 +141,11 @@ fn object_entries(lab: &mut Lab, ui: &mut Ui) {
     ] {
         entry(command, lab, ui);
     }
+    ui.menu_button("Operations", |ui| {
+        for command in operations::MENU {
+            entry(command, lab, ui);
+        }
+    });
     if ui.button("Delete curve").clicked()
         && let Some(object) = lab.selection.object
     {

@@ -1,21 +1,21 @@
 //! Drawing a new curve, click by click, by free hand, and with typed numbers.
 
-use eframe::egui::{self, Event, Key, Modifiers, Painter, Pos2, Rect, Shape, Stroke, Ui};
+use eframe::egui::{self, Event, Key, Modifiers, Pos2, Rect, Ui};
 use glam::DVec2;
 
-use crate::app::curves::draw_shapes::{circle_through, conic_weight, construct, half_axes, shoulder};
+use crate::app::curves::draw_shapes::{construct, shoulder};
 use crate::app::hands::{DEAD_ZONE, constrained, pressed_at};
 use crate::app::lab::{DrawMode, Lab, Tool};
 use crate::app::number_text::parse_list;
-use crate::app::painter::{color32, paint_note_at_pointer, screen_from_world, world_from_screen};
+use crate::app::painter::{screen_from_world, world_from_screen};
 use crate::core::spline_curve::{FitOptions, FittingError, Nurbs, fit_stroke};
 use crate::course::number_text::parse_number;
-use crate::document::{CurveDisplay, Edit};
+use crate::document::{CurveDisplay, Edit, ObjectId};
 use crate::figure::composition::short_number;
 use crate::figure::picture::Viewport;
 
 /// Pixels within which a click on the first point closes the curve, and a stroke that comes back to its start.
-const CLOSING_REACH: f32 = 10.0;
+pub(super) const CLOSING_REACH: f32 = 10.0;
 
 /// Two clicks farther from each other are no double click.
 const DOUBLE_REACH: f32 = 6.0;
@@ -29,22 +29,68 @@ const MOST_POINTS: usize = 400;
 /// The points clicked so far.
 #[derive(Debug, Default)]
 pub(super) struct Drawing {
-    mode: DrawMode,
-    points: Vec<DVec2>,
+    pub(super) mode: DrawMode,
+    pub(super) points: Vec<DVec2>,
     /// Points that were undone; the last one comes back first.
     undone: Vec<DVec2>,
     /// Where the button went down.
-    pressed: Option<Pos2>,
+    pub(super) pressed: Option<Pos2>,
     /// The stroke while the button is down.
-    stroke: Vec<DVec2>,
+    pub(super) stroke: Vec<DVec2>,
     /// The number that is being typed.
-    typed: String,
+    pub(super) typed: String,
+    /// The stroke fitted last.
+    fitted: Option<FittedStroke>,
+}
+
+/// A stroke that became a curve; as long as the curve is as it was made, another tolerance fits it again.
+#[derive(Debug)]
+struct FittedStroke {
+    object: ObjectId,
+    stroke: Vec<DVec2>,
+    closed: bool,
+    /// Pixels per unit when it was drawn.
+    scale: f64,
+    /// In pixels.
+    tolerance: f64,
+    curve: Nurbs<DVec2>,
 }
 
 impl Drawing {
     /// Forgets what is unfinished.
     pub(super) fn clear(&mut self) {
-        *self = Self { mode: self.mode, ..Self::default() };
+        *self = Self { mode: self.mode, fitted: self.fitted.take(), ..Self::default() };
+    }
+
+    /// While another tool is taken up: nothing is unfinished, and a changed tolerance fits the last stroke again.
+    ///
+    /// Not while the button is `held`, so that a dragged tolerance is one step.
+    pub(super) fn rest(&mut self, lab: &mut Lab, held: bool) {
+        self.clear();
+        lab.drawn = (0, 0);
+        let Some(fitted) = &mut self.fitted else { return };
+        if fitted.tolerance.to_bits() == lab.stroke_tolerance.to_bits() || held {
+            return;
+        }
+        if lab.history.document().curve(fitted.object) != Some(&fitted.curve) {
+            self.fitted = None;
+            return;
+        }
+        fitted.tolerance = lab.stroke_tolerance;
+        match fit(&fitted.stroke, fitted.closed, fitted.tolerance, fitted.scale) {
+            Ok((curve, note)) => {
+                fitted.curve = curve.clone();
+                let (object, label) = (fitted.object, "Fit the stroke again".to_owned());
+                lab.edit(Edit::ReplaceCurve { object, curve, label });
+                lab.shape_note = Some(note);
+            }
+            Err(reason) => lab.problem(reason),
+        }
+    }
+
+    /// An unfinished drawing with these points.
+    pub(super) fn of(mode: DrawMode, points: Vec<DVec2>) -> Self {
+        Self { mode, points, ..Self::default() }
     }
 
     /// Takes back the last point; `false` if there is none.
@@ -168,7 +214,7 @@ impl Drawing {
     }
 
     /// The place that a click at `pointer` means: with Shift along an axis from the point before, with Ctrl on the grid.
-    fn place(&self, pointer: Pos2, viewport: &Viewport, rect: Rect, keys: Modifiers) -> DVec2 {
+    pub(super) fn place(&self, pointer: Pos2, viewport: &Viewport, rect: Rect, keys: Modifiers) -> DVec2 {
         let world = world_from_screen(viewport, rect, pointer);
         match self.anchor() {
             Some(anchor) => anchor + constrained(world - anchor, anchor, viewport, keys),
@@ -353,25 +399,22 @@ impl Drawing {
         let closed = farthest > 4.0 * CLOSING_REACH
             && stroke.len() > 8
             && on_screen(last).distance(on_screen(first)) <= CLOSING_REACH;
-        let options = FitOptions {
-            degree: 3,
-            tolerance: lab.stroke_tolerance / viewport.scale,
-            corner_angle: CORNER_ANGLE,
-            closed,
-            most_points: MOST_POINTS,
-        };
-        let fit = match fit_stroke(&stroke, &options) {
-            Ok(fit) => fit,
-            Err(FittingError::StepLimit { best }) => *best,
-            Err(error) => return lab.problem(error.to_string()),
-        };
-        let (count, error) = (fit.curve.points().len(), fit.max_error * viewport.scale);
-        self.make(Ok(vec![fit.curve]), lab);
-        lab.shape_note = Some(format!(
-            "{} points drawn, {count} control points; the curve is within {} px of them.",
-            stroke.len(),
-            short_number(error)
-        ));
+        let (tolerance, scale) = (lab.stroke_tolerance, viewport.scale);
+        match fit(&stroke, closed, tolerance, scale) {
+            Ok((curve, note)) => {
+                self.make(Ok(vec![curve.clone()]), lab);
+                lab.shape_note = Some(note);
+                self.fitted = lab.selection.object.map(|object| FittedStroke {
+                    object,
+                    stroke,
+                    closed,
+                    scale,
+                    tolerance,
+                    curve,
+                });
+            }
+            Err(reason) => lab.problem(reason),
+        }
     }
 
     /// The points clicked, by the names of their handles.
@@ -383,121 +426,29 @@ impl Drawing {
     pub(super) fn hint(&self, lab: &Lab) -> &'static str {
         lab.draw_mode.hint(if self.mode == lab.draw_mode { self.points.len() } else { 0 })
     }
-
-    /// The points so far, the curve they would make with the one under the pointer, and its size.
-    pub(super) fn paint(
-        &self,
-        pointer: Option<Pos2>,
-        lab: &Lab,
-        viewport: &Viewport,
-        rect: Rect,
-        painter: &Painter,
-        keys: Modifiers,
-    ) {
-        let (ink, thin) = (color32(lab.theme.accent), Stroke::new(1.0, color32(lab.theme.muted_text)));
-        let on_screen = |world: DVec2| screen_from_world(viewport, rect, world);
-        if !self.stroke.is_empty() && self.pressed.is_some() && self.mode == DrawMode::Stroke {
-            let line = self.stroke.iter().map(|&at| on_screen(at)).collect();
-            painter.add(Shape::line(line, Stroke::new(2.5, ink)));
-            return;
-        }
-        let mut places = self.points.clone();
-        if let (Some(pressed), Some(needed)) = (self.pressed, self.mode.clicks())
-            && places.len() + 2 <= needed
-            && pointer.is_some_and(|pointer| pointer.distance(pressed) >= DEAD_ZONE)
-        {
-            places.push(self.place(pressed, viewport, rect, keys));
-        }
-        let clicked = places.len();
-        if let Some(pointer) = pointer.filter(|_| self.mode != DrawMode::Stroke) {
-            let with_pressed = Self { mode: self.mode, points: places.clone(), ..Self::default() };
-            places.push(with_pressed.place(pointer, viewport, rect, keys));
-        }
-        let closing = self.mode.clicks().is_none()
-            && self.points.len() >= 3
-            && pointer.is_some_and(|pointer| on_screen(self.points[0]).distance(pointer) <= CLOSING_REACH);
-        if closing {
-            places.pop();
-        }
-        let curves = if places.len() >= 2 { construct(self.mode, &places, closing) } else { Ok(Vec::new()) };
-        for curve in curves.iter().flatten() {
-            painter
-                .add(Shape::line(samples(curve).into_iter().map(on_screen).collect(), Stroke::new(2.5, ink)));
-        }
-        let help: Vec<Pos2> = match (self.mode, &places[..]) {
-            (DrawMode::Through | DrawMode::Arc | DrawMode::ConicFive, _) => Vec::new(),
-            (DrawMode::Ellipse, &[center, first, second]) => {
-                let (u, v) = half_axes(center, first, second);
-                [center + u, center, center + v].map(on_screen).to_vec()
-            }
-            (DrawMode::Conic, &[start, middle, end, place]) => {
-                let at = shoulder([start, middle, end], conic_weight([start, middle, end], place));
-                painter.circle_filled(on_screen(at), 4.0, ink);
-                [start, middle, end].map(on_screen).to_vec()
-            }
-            _ => places.iter().map(|&at| on_screen(at)).collect(),
-        };
-        painter.add(Shape::line(help, thin));
-        for (index, &place) in places.iter().enumerate().take(clicked) {
-            let radius = if index == 0 && self.mode.clicks().is_none() { 6.0 } else { 4.5 };
-            painter.circle(on_screen(place), radius, color32(lab.theme.background), Stroke::new(2.0, ink));
-        }
-        if let Some(pointer) = pointer {
-            let note = if self.typed.is_empty() {
-                self.size_note(&places)
-            } else {
-                Some(format!("{}|", self.typed))
-            };
-            if let Some(note) = note {
-                paint_note_at_pointer(painter, pointer, rect, &note, &lab.theme);
-            }
-        }
-    }
-
-    /// The size of what is being drawn.
-    fn size_note(&self, places: &[DVec2]) -> Option<String> {
-        let number = short_number;
-        let &place = places.last()?;
-        let length = |from: DVec2| number(place.distance(from));
-        Some(match (self.mode, places) {
-            (DrawMode::Circle, &[center, _]) => format!("r = {}", length(center)),
-            (DrawMode::Ellipse, &[center, _]) => format!("a = {}", length(center)),
-            (DrawMode::Ellipse, &[center, first, second]) => {
-                let (u, v) = half_axes(center, first, second);
-                format!("a = {}, b = {}", number(u.length()), number(v.length()))
-            }
-            (DrawMode::Arc, &[start, way, end]) => match circle_through(start, way, end) {
-                Some((_, radius)) => format!("r = {}", number(radius)),
-                None => "on one line".to_owned(),
-            },
-            (DrawMode::Conic, &[start, middle, end, at]) => {
-                let weight = conic_weight([start, middle, end], at);
-                let kind = match weight {
-                    w if (w - 1.0).abs() < 0.005 => "parabola",
-                    w if w < 1.0 => "ellipse",
-                    _ => "hyperbola",
-                };
-                format!("w = {}, {kind}", number(weight))
-            }
-            (_, &[.., before, _]) => {
-                format!("{}; {}   length {}", number(place.x), number(place.y), length(before))
-            }
-            _ => format!("{}; {}", number(place.x), number(place.y)),
-        })
-    }
 }
 
-/// Points of the curve, close enough for a preview.
-fn samples(curve: &Nurbs<DVec2>) -> Vec<DVec2> {
-    let breaks = curve.space().breaks();
-    let steps = (4000 / breaks.len()).clamp(2, 32);
-    let mut line = Vec::with_capacity(breaks.len() * steps);
-    for ends in breaks.windows(2) {
-        let at = |step: usize| ends[0] + (ends[1] - ends[0]) * step as f64 / steps as f64;
-        line.extend((0..steps).filter_map(|step| curve.evaluate(at(step)).ok()));
-    }
-    line.extend(breaks.last().and_then(|&end| curve.evaluate(end).ok()));
-    line
+/// The curve along a stroke within `tolerance` pixels of `scale` to a unit, and what it is in a sentence.
+fn fit(stroke: &[DVec2], closed: bool, tolerance: f64, scale: f64) -> Result<(Nurbs<DVec2>, String), String> {
+    let options = FitOptions {
+        degree: 3,
+        tolerance: tolerance / scale,
+        corner_angle: CORNER_ANGLE,
+        closed,
+        most_points: MOST_POINTS,
+    };
+    let fit = match fit_stroke(stroke, &options) {
+        Ok(fit) => fit,
+        Err(FittingError::StepLimit { best }) => *best,
+        Err(error) => return Err(error.to_string()),
+    };
+    let note = format!(
+        "{} points drawn, {} control points; the curve is within {} px of them.",
+        stroke.len(),
+        fit.curve.points().len(),
+        short_number(fit.max_error * scale)
+    );
+    Ok((fit.curve, note))
 }
 
 fn next_name(noun: &str, number: &mut usize, lab: &Lab) -> String {

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use eframe::egui::Context;
 
 use crate::app::approximation::take_table;
+use crate::app::chart_panel;
 use crate::app::command::Command;
 use crate::app::files::job::Finish;
 use crate::app::files::question::Problem;
@@ -17,6 +18,7 @@ use crate::exchange::by_ending::{self, FigureFormat};
 use crate::exchange::csv::{CsvError, read_csv_file, write_csv};
 use crate::exchange::frames::write_frames;
 use crate::exchange::obj;
+use crate::figure::chart::Chart;
 use crate::figure::page::page;
 use crate::figure::picture::Viewport;
 use crate::figure::surfaces;
@@ -26,6 +28,9 @@ const PNG_SCALE: f64 = 2.0;
 
 /// Endings of tables, the usual one first.
 pub(super) const TABLES: &[&str] = &["csv", "tsv", "txt", "dat"];
+
+/// Endings of charts, the usual one first.
+pub(super) const CHARTS: &[&str] = &["svg", "pdf", "png", "csv"];
 
 impl Files {
     /// Adds the mesh of a file to the document, as one step.
@@ -99,6 +104,40 @@ impl Files {
                     files.problems.push(Problem::new("The frames were not written", error.to_string()));
                 }
             })
+        });
+    }
+
+    /// Writes the chart of the selected curve, or its numbers as a table.
+    pub(super) fn export_chart(&mut self, path: PathBuf, lab: &mut Lab, ctx: &Context) {
+        let Some((chart, size, table)) = chart_panel::page(lab) else {
+            lab.problem("Select a curve first.");
+            return;
+        };
+        let is_table = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
+        let format = match FigureFormat::of(&path) {
+            Ok(format) => Some(format),
+            Err(_) if is_table => None,
+            Err(error) => {
+                // The sentence must name the table too.
+                let text = error.to_string().replace(".png", ".png, .csv");
+                self.problems.push(Problem::new("The chart was not written", text));
+                return;
+            }
+        };
+        let (document, view, theme) = (lab.history.document().clone(), view_to_save(lab), lab.theme.clone());
+        self.start_job(format!("Writing {}", name_of(&path)), lab, ctx, move |watcher| {
+            let bytes = match format {
+                None => Ok(table.into_bytes()),
+                Some(format) => {
+                    let (picture, viewport) = (chart.to_picture(&theme, size), Chart::view(size));
+                    by_ending::figure(format, &picture, &viewport, &document, &view, PNG_SCALE)
+                }
+            };
+            let written = bytes.map_err(|error| error.to_string()).and_then(|bytes| {
+                watcher.check(0.9).map_err(|stopped| stopped.to_string())?;
+                by_ending::write_file(&path, &bytes).map_err(|error| error.to_string())
+            });
+            said(written, "Chart written to", "The chart was not written", path)
         });
     }
 

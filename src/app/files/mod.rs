@@ -47,6 +47,7 @@ enum Wanted {
     Save(Option<Then>),
     Figure,
     Frames,
+    Chart,
     Mesh,
     MeshOut,
     Data,
@@ -162,6 +163,7 @@ impl Files {
             Command::ExportMesh => self.ask_for_file(Wanted::MeshOut, lab),
             Command::ExportFigure => self.ask_for_file(Wanted::Figure, lab),
             Command::ExportFrames => self.ask_for_file(Wanted::Frames, lab),
+            Command::ExportChart => self.ask_for_file(Wanted::Chart, lab),
             Command::ImportData => self.ask_for_file(Wanted::Data, lab),
             Command::ExportData => self.ask_for_file(Wanted::DataCopy, lab),
             Command::NewApproximation => new_approximation(lab, None),
@@ -229,6 +231,10 @@ impl Files {
                 FRAME_ENDINGS,
                 format!("{name}-{}.svg", lab.view.stepper.key()),
             ),
+            Wanted::Chart => {
+                let file_name = format!("{name}-{}.svg", lab.charts.quantity.name().to_lowercase());
+                (Purpose::Save, "Export the chart", "figures and tables", exchange::CHARTS, file_name)
+            }
             Wanted::Data => (Purpose::Open, "Import data", "tables", exchange::TABLES, String::new()),
             Wanted::DataCopy => {
                 (Purpose::Save, "Export the data", "tables", exchange::TABLES, format!("{name}.csv"))
@@ -249,6 +255,7 @@ impl Files {
             Wanted::MeshOut => self.export_mesh(path, lab, ui.ctx()),
             Wanted::Figure => self.export(path, lab, ui.ctx()),
             Wanted::Frames => self.export_frames(path, lab, ui.ctx()),
+            Wanted::Chart => self.export_chart(path, lab, ui.ctx()),
             Wanted::Data => self.import_data(&path, lab),
             Wanted::DataCopy => self.export_data(&path, lab),
             Wanted::Save(then) => {

@@ -337,3 +337,31 @@ fn every_file_command_is_taken_and_no_other() {
         assert_eq!(files.execute(command, &mut lab, &ctx), is_file, "{command:?}");
     }
 }
+
+#[test]
+fn a_chart_is_written_as_a_figure_with_its_document_and_as_a_table() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = window(Directories::none());
+    window.state_mut().lab.at_once = true;
+    window.state_mut().lab.charts.over_length = true;
+    let before = shown(&window).clone();
+    for ending in ["svg", "pdf", "png", "csv"] {
+        let path = folder.path().join(format!("chart.{ending}"));
+        command(&mut window, Command::ExportChart);
+        answer_with(&mut window, &path);
+        assert!(path.exists(), "{ending}: {:?}", window.state().files.problems);
+    }
+    let svg = fs::read_to_string(folder.path().join("chart.svg")).unwrap();
+    assert!(svg.contains("arc length s") && svg.contains("Curvature of Wave"), "the names of the axes");
+    let table = fs::read_to_string(folder.path().join("chart.csv")).unwrap();
+    assert_eq!(table.lines().next(), Some("t,s,x,y,speed,curvature"), "the titles");
+    assert!(table.lines().count() > 100, "{} lines", table.lines().count());
+    command(&mut window, Command::ExportChart);
+    answer_with(&mut window, &folder.path().join("chart.doc"));
+    assert!(window.query_by_label_contains(".csv").is_some(), "the possible endings are named");
+    window.state_mut().files.problems.clear();
+    command(&mut window, Command::New);
+    command(&mut window, Command::Open);
+    answer_with(&mut window, &folder.path().join("chart.svg"));
+    assert_eq!(shown(&window), &before, "the document in the figure");
+}

@@ -11,24 +11,54 @@ use crate::document::{CurveDisplay, Edit, PointLabels};
 pub(super) fn show(lab: &mut Lab, ui: &mut Ui, subject: &Subject) {
     let object = subject.object;
     let mut display = subject.display.clone();
-    Grid::new("shown")
-        .num_columns(2)
-        .min_col_width((ui.available_width() - 8.0) * 0.5)
-        .spacing([8.0, 3.0])
-        .show(ui, |ui| {
-            ui.checkbox(&mut display.polygon, "Control polygon");
-            ui.checkbox(&mut display.points, "Control points");
-            ui.end_row();
-            ui.checkbox(&mut display.knots, "Knots");
-            ui.checkbox(&mut display.pieces, "Pieces in colours");
-            ui.end_row();
+    let half = (ui.available_width() - 8.0) * 0.5;
+    Grid::new("shown ".trim_end()).num_columns(2).min_col_width(half).spacing([8.0, 3.0]).show(ui, |ui| {
+        ui.checkbox(&mut display.polygon, "Control polygon");
+        ui.checkbox(&mut display.points, "Control points");
+        ui.end_row();
+        ui.checkbox(&mut display.knots, "Knots");
+        ui.checkbox(&mut display.pieces, "Pieces in colours");
+        ui.end_row();
+        ui.checkbox(&mut display.bezier_points, "Bezier points").on_hover_text("Show or hide the Bezier points of all pieces");
+        ui.checkbox(&mut display.blossom_labels, "Blossom labels").on_hover_text("Write the knots of each control point beside it, as arguments of the blossom");
+        ui.end_row();
+        ui.checkbox(&mut display.distance_tube, "Distance tube").on_hover_text("Show or hide the tube around the polygon that holds the curve, with the bound and what is measured");
+        ui.checkbox(&mut display.comb, "Curvature comb");
+        ui.end_row();
+    });
+    ui.label(RichText::new("At t").weak());
+    Grid::new("shown At t".trim_end()).num_columns(2).min_col_width(half).spacing([8.0, 3.0]).show(
+        ui,
+        |ui| {
             ui.checkbox(&mut display.construction, "Construction at t");
             ui.checkbox(&mut display.hull, "Convex hull at t");
             ui.end_row();
+            ui.checkbox(&mut display.frame, "Frame at t")
+                .on_hover_text("The unit tangent T and the unit normal N at t");
             ui.checkbox(&mut display.osculating_circle, "Circle of curvature");
-            ui.checkbox(&mut display.comb, "Curvature comb");
             ui.end_row();
-        });
+            ui.checkbox(&mut display.hodograph, "Hodograph")
+                .on_hover_text("Show or hide the curve of the derivative, with its vector at t");
+            ui.end_row();
+        },
+    );
+    ui.label(RichText::new("Measured").weak());
+    Grid::new("shown Measured".trim_end()).num_columns(2).min_col_width(half).spacing([8.0, 3.0]).show(
+        ui,
+        |ui| {
+            ui.checkbox(&mut display.inflections, "Inflections")
+                .on_hover_text("Mark where the curvature changes its sign");
+            ui.checkbox(&mut display.vertices, "Curvature extrema")
+                .on_hover_text("Mark where the curvature is locally largest or smallest");
+            ui.end_row();
+            ui.checkbox(&mut display.symmetry, "Symmetry").on_hover_text(
+                "Show the nearest axis or centre of symmetry, and how far the curve is from it",
+            );
+            ui.checkbox(&mut display.probe_line, "Probe line")
+                .on_hover_text("A line that counts its crossings with the curve and with its polygon");
+            ui.end_row();
+        },
+    );
     ui.horizontal(|ui| {
         ui.label("Labels");
         let width = (ui.available_width() - 8.0).min(130.0);

@@ -4,6 +4,7 @@ use eframe::egui::containers::menu::{MenuButton, MenuConfig};
 use eframe::egui::{Button, Id, Label, PopupCloseBehavior, RichText, Role, Ui, WidgetInfo};
 use glam::DVec2;
 
+use crate::app::chart_panel;
 use crate::app::command::Command;
 use crate::app::knot_line::{actions, axis, builder};
 use crate::app::lab::Lab;
@@ -23,6 +24,7 @@ pub(super) fn show(
 ) {
     // A narrow window takes a second row rather than controls beyond its edge.
     ui.horizontal_wrapped(|ui| {
+        chart_panel::tabs(lab, ui);
         parameter(lab, ui, object, curve, t);
         ui.separator();
         let on = lab.knots.builder.is_some();
@@ -55,7 +57,8 @@ pub(super) fn show(
     });
 }
 
-fn parameter(lab: &mut Lab, ui: &mut Ui, object: ObjectId, curve: &Nurbs<DVec2>, t: f64) {
+/// The field of t.
+pub(crate) fn parameter(lab: &mut Lab, ui: &mut Ui, object: ObjectId, curve: &Nurbs<DVec2>, t: f64) {
     ui.label(RichText::new("t").italics());
     let (left, right) = curve.space().parameter_interval();
     let field = NumberField::new("Parameter t", t)

@@ -7,7 +7,7 @@ mod basis;
 mod builder;
 mod dial;
 mod hand;
-mod header;
+pub(crate) mod header;
 mod knots;
 mod note;
 mod plot;
@@ -16,6 +16,7 @@ mod pyramid;
 use eframe::egui::{Color32, Rect, RichText, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 use glam::DVec2;
 
+use crate::app::chart_panel;
 use crate::app::command::Command;
 use crate::app::knot_line::axis::Axis;
 use crate::app::knot_line::basis::Active;
@@ -75,6 +76,7 @@ impl Scene {
 /// Shows the knot line of the selected curve.
 pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
     let Some((object, curve)) = lab.selection.object.zip(lab.curve().cloned()) else {
+        ui.horizontal(|ui| chart_panel::tabs(lab, ui));
         ui.centered_and_justified(|ui| {
             ui.label(RichText::new("Select a curve to see its knots and B-splines").weak());
         });

@@ -16,7 +16,7 @@ use crate::document::ObjectId;
 
 /// Height of the gap between two rows, where the factors stand.
 const GAP: f32 = 26.0;
-/// Lines to parents further away, counted in cells, would only cross the table.
+/// Lines to parents further away, counted in cells, or more than a row above would only cross the table.
 const LONGEST_LINE: f32 = 3.0;
 
 /// Sizes of the cells of a table.
@@ -131,7 +131,7 @@ fn arrows(
     for parent in &entry.parents {
         let from = grid.rect(origin, parent.tie);
         let shift = (child.center().x - from.center().x) / grid.pitch;
-        if shift.abs() > LONGEST_LINE {
+        if shift.abs() > LONGEST_LINE || parent.tie.0 + 1 < entry.level {
             continue;
         }
         let sign = if shift.abs() < 0.1 { 0.0 } else { shift.signum() };

@@ -175,6 +175,9 @@ pub enum SplineError {
         /// The tolerance.
         value: f64,
     },
+    /// The watcher stopped the work.
+    #[error(transparent)]
+    Stopped(#[from] crate::core::progress::Stopped),
 }
 
 impl SplineError {
@@ -200,6 +203,7 @@ impl SplineError {
             Self::KnotsNotUniform { .. } => "KnotsNotUniform",
             Self::BoundaryMismatch { .. } => "BoundaryMismatch",
             Self::InvalidTolerance { .. } => "InvalidTolerance",
+            Self::Stopped(_) => "Stopped",
         }
     }
 }

@@ -14,6 +14,17 @@ use crate::core::bspline::error::{Side, SplineError};
 pub const MAX_DEGREE: usize = 25;
 
 /// The splines of one degree over one knot sequence, open or periodic; valid by construction.
+///
+/// ```
+/// use spline_lab::core::bspline::{EndKnots, SplineSpace};
+///
+/// let space = SplineSpace::from_breaks(3, &[0.0, 1.0, 4.0], EndKnots::Interpolating)?;
+/// assert_eq!(space.knots(), [-1.0, 0.0, 0.0, 0.0, 1.0, 4.0, 4.0, 4.0, 7.0]);
+/// assert_eq!((space.dimension(), space.parameter_interval()), (5, (0.0, 4.0)));
+/// let error = SplineSpace::new(2, vec![0.0, 1.0, 3.0, 2.0, 4.0, 5.0]).unwrap_err();
+/// assert_eq!(error.to_string(), "knot 3 is 2, smaller than the knot 3 before it");
+/// # Ok::<(), spline_lab::core::bspline::SplineError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct SplineSpace {
     degree: usize,

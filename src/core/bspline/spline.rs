@@ -13,6 +13,18 @@ use crate::core::triangular_scheme::TriangularScheme;
 /// The one spline type: coefficients of any [`Point`] over an open or periodic [`SplineSpace`].
 ///
 /// With numbers it is a spline function, with points of the plane or of space a curve.
+///
+/// ```
+/// use spline_lab::core::bspline::{EndKnots, Side, Spline, SplineSpace};
+///
+/// // p(x) = x² over [0, 2]: the coefficients are the products ξₖ₊₁ ξₖ₊₂ of the inner knots of each B-spline.
+/// let space = SplineSpace::from_breaks(2, &[0.0, 1.0, 2.0], EndKnots::Interpolating)?;
+/// let square = Spline::new(space, vec![0.0, 0.0, 2.0, 4.0])?;
+/// assert_eq!(square.evaluate(1.5)?, 2.25);
+/// assert_eq!(square.derivatives(1.5, 2, Side::Right)?, [2.25, 3.0, 2.0]);
+/// assert_eq!(square.insert_knot(0.5)?.evaluate(1.5)?, 2.25);
+/// # Ok::<(), spline_lab::core::bspline::SplineError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spline<P> {
     space: SplineSpace,
@@ -133,10 +145,20 @@ impl<P: Point> Spline<P> {
     ///
     /// `NonFinite`, `OutsideInterval`.
     pub fn derivatives(&self, x: f64, count: usize, side: Side) -> Result<Vec<P>, SplineError> {
-        let (span, x) = self.space.span_on_side(x, side)?;
         let mut values = vec![P::ZERO; count + 1];
-        self.derivatives_in_span(span, x, &mut values);
+        self.derivatives_into(x, side, &mut values)?;
         Ok(values)
+    }
+
+    /// As many of `p, p′, …` as `values` has room for, as [`Self::derivatives`]; does not allocate.
+    ///
+    /// # Errors
+    ///
+    /// `NonFinite`, `OutsideInterval`; `values` then stay as they are.
+    pub fn derivatives_into(&self, x: f64, side: Side, values: &mut [P]) -> Result<(), SplineError> {
+        let (span, x) = self.space.span_on_side(x, side)?;
+        self.derivatives_in_span(span, x, values);
+        Ok(())
     }
 
     /// As many of `p, p′, …` of the polynomial piece over the knot interval `span` as `values` has room for, at any `x`.

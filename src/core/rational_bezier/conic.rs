@@ -58,6 +58,18 @@ pub enum DegenerateConic {
 }
 
 /// A conic `z A zᵗ = 0`; the equation is kept as given, up to the rounding of no operation.
+///
+/// ```
+/// use glam::DVec2;
+/// use spline_lab::core::rational_bezier::{Conic, ConicKind};
+///
+/// // The circle of radius 1 through five of its points.
+/// let points = [0.0_f64, 1.0, 2.0, 3.0, 4.0].map(DVec2::from_angle);
+/// let conic = Conic::through_points(points)?;
+/// assert_eq!(conic.kind(), ConicKind::Ellipse);
+/// assert!(conic.center()?.length() < 1e-14);
+/// # Ok::<(), spline_lab::core::rational_bezier::RationalBezierError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conic {
     coefficients: [f64; 6],

@@ -262,7 +262,7 @@ impl Part {
             return Err(FittingError::TooFewData { least: 2, found: points.len() });
         };
         let reached = error <= options.tolerance;
-        // Half of what is left: the distance of both curves adds to the errors of the points.
+        // The distance of both curves adds to the errors of the points.
         if reached && let Ok(reduced) = spline.remove_knots(options.tolerance - error) {
             spline = reduced.spline;
         }

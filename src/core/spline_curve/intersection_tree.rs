@@ -8,10 +8,13 @@ use glam::DVec2;
 
 use crate::core::bounding_tree::{BoundingBox, BoundingTree, BoundingTreeError};
 use crate::core::bspline::SplineError;
+use crate::core::progress::{Unwatched, Watcher};
 use crate::core::spline_curve::curve_intersection::{Merge, as_spline_error, check_tolerance};
 use crate::core::spline_curve::plane_piece::{PlanePiece, gentle_parts};
 use crate::core::spline_curve::{CurveIntersection, Meeting, Nurbs};
 
+/// Pairs between two words to the watcher.
+const WATCHED: usize = 64;
 /// Half opening of the cone of directions of the parts in a tree, in radians.
 const OPENING: f64 = 0.6;
 /// How often pieces of a pair are halved; crossings that are not nearly tangential are then alone.
@@ -72,9 +75,27 @@ impl IntersectionTree {
     ///
     /// `InvalidTolerance`; `StepLimit` where a pair of pieces needs too many halvings.
     pub fn intersections(&self, other: &Self, tolerance: f64) -> Result<Vec<CurveIntersection>, SplineError> {
+        self.intersections_watched(other, tolerance, &Unwatched)
+    }
+
+    /// As [`Self::intersections`]; `watcher` hears the part of the pairs that is done.
+    ///
+    /// # Errors
+    ///
+    /// As there; `Stopped`.
+    pub fn intersections_watched(
+        &self,
+        other: &Self,
+        tolerance: f64,
+        watcher: &impl Watcher,
+    ) -> Result<Vec<CurveIntersection>, SplineError> {
         check_tolerance(tolerance)?;
         let mut found = Vec::new();
-        for (i, j) in self.pairs(other, tolerance) {
+        let pairs = self.pairs(other, tolerance);
+        for (done, &(i, j)) in pairs.iter().enumerate() {
+            if done % WATCHED == 0 {
+                watcher.check(done as f64 / pairs.len() as f64)?;
+            }
             meet(&self.pieces[i], &other.pieces[j], tolerance, HALVINGS, &mut found)?;
         }
         Ok(Merge { curves: [&self.curve, &other.curve], tolerance }.merged(found))
@@ -133,6 +154,16 @@ mod tests {
 
     use super::*;
     use crate::core::spline_curve::samples::any_curve;
+
+    #[test]
+    fn a_watcher_hears_of_progress_and_stops_the_work() {
+        let circle =
+            |x: f64| IntersectionTree::new(&Nurbs::circle(DVec2::new(x, 0.0), 1.0).unwrap()).unwrap();
+        let stopped = circle(0.0).intersections_watched(&circle(1.0), 1e-9, &|_: f64| false);
+        assert_eq!(stopped.unwrap_err().name(), "Stopped", "at once");
+        let found = circle(0.0).intersections_watched(&circle(1.0), 1e-9, &|part: f64| part < 1.0);
+        assert_eq!(found.unwrap().len(), 2, "to the end");
+    }
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(32))]

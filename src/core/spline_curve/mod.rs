@@ -8,6 +8,7 @@
 //! | `least_norm_move`, `edit_points` | a point of the curve moved, alone or with other points kept |
 //! | `fitting`, `fitting_stroke` | B.16 least squares for sequences of points, strokes |
 //! | `trim`, `join` | 6.1 a part of a curve, both sides of a parameter, two curves as one |
+//! | `offset` | the curve at a distance, within a tolerance |
 //! | `hull` | 6.2 hull and box of the active control points |
 //! | `distance_bound` | 6.2 distance of curve and control polygon |
 //! | `tessellation` | 6.2 polygons within a tolerance |
@@ -31,6 +32,8 @@
 //! | `curvature` | frames, signed curvature and its derivative, osculating circles, torsion |
 //! | `inflections`, `vertices`, `curvature_polynomial` | B.7 where curvature changes sign, where it is extreme, and the polynomials behind |
 //! | `tight_box` | B.7 the smallest box, extreme points |
+//! | `symmetry` | the axis or centre about which a plane curve is nearest to its image |
+//! | `joint` | how smoothly two curves join |
 //! | `local_piece`, `foot_polynomial`, `chord`, `piecewise_sign` | B.5, B.7 what closest points and features are made of |
 
 mod arc_length;
@@ -63,6 +66,7 @@ mod inflections;
 mod insertion_scheme;
 mod intersection_tree;
 mod join;
+mod joint;
 mod knot_insertion;
 mod knot_removal;
 mod knot_rule;
@@ -71,6 +75,7 @@ mod line_intersection;
 mod local_piece;
 mod nearest_spline;
 mod nurbs;
+mod offset;
 mod piecewise_sign;
 mod plane_piece;
 mod refinement_matrix;
@@ -79,6 +84,7 @@ mod removal_within;
 mod samples;
 mod self_intersection;
 mod subdivision;
+mod symmetry;
 mod tessellation;
 mod tight_box;
 mod trim;
@@ -108,13 +114,16 @@ pub use hyperplane_intersection::{HyperplaneIntersection, IntersectionKind};
 pub use inflections::CurveInflections;
 pub use insertion_scheme::InsertionScheme;
 pub use intersection_tree::IntersectionTree;
+pub use joint::Joint;
 pub use knot_removal::{KnotRemoval, NurbsKnotRemoval};
 pub use knot_rule::KnotRule;
 pub use line_intersection::LineIntersection;
 pub use nurbs::Nurbs;
+pub use offset::Offset;
 pub use refinement_matrix::refinement_matrix;
 pub use removal_within::{KnotReduction, NurbsKnotReduction};
 pub use subdivision::{subdivide_polygon, subdivision_mask};
+pub use symmetry::{Symmetry, SymmetryKind};
 pub use tessellation::Tessellation;
 pub use tight_box::{Extreme, TightBox};
 pub use uniform_reduction::{UniformReduction, reduce_uniformly};

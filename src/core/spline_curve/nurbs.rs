@@ -3,16 +3,34 @@
 //! Cartesian points and weights are kept exactly as given, never normalised. Every algorithm runs on the
 //! homogeneous spline with coefficients `(wₖ cₖ, wₖ)` and divides at the end. Course: section 6.1.
 
-use crate::core::bspline::{DeBoorScheme, Side, Spline, SplineError, SplineSpace};
+use crate::core::bspline::{DeBoorScheme, MAX_DEGREE, Side, Spline, SplineError, SplineSpace};
 use crate::core::point::Point as _;
 use crate::core::rational_bezier::Projective;
 
 /// A rational spline curve, open or closed; all weights equal make it polynomial.
+///
+/// ```
+/// use glam::DVec2;
+/// use spline_lab::core::bspline::{EndKnots, Side, SplineSpace};
+/// use spline_lab::core::spline_curve::Nurbs;
+///
+/// // A quarter of the unit circle.
+/// let space = SplineSpace::from_breaks(2, &[0.0, 1.0], EndKnots::Interpolating)?;
+/// let points = vec![DVec2::X, DVec2::ONE, DVec2::Y];
+/// let arc = Nurbs::new(space, points, vec![1.0, 0.5_f64.sqrt(), 1.0])?;
+/// assert!((arc.evaluate(0.3)?.length() - 1.0).abs() < 1e-15);
+/// assert!((arc.curvature(0.3, Side::Right)? - 1.0).abs() < 1e-14);
+/// let refined = arc.insert_knots(&[0.25, 0.5])?;
+/// assert!((refined.evaluate(0.3)? - arc.evaluate(0.3)?).length() < 1e-15);
+/// # Ok::<(), spline_lab::core::bspline::SplineError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Nurbs<P: Projective> {
     points: Spline<P>,
     weights: Vec<f64>,
     homogeneous: Spline<P::Homogeneous>,
+    /// Whether all weights are the same number; evaluation asks for every point.
+    is_polynomial: bool,
 }
 
 impl<P: Projective> Nurbs<P> {
@@ -37,7 +55,8 @@ impl<P: Projective> Nurbs<P> {
         let lifted =
             points.coefficients().iter().zip(&weights).map(|(point, &weight)| point.lift(weight)).collect();
         let homogeneous = Spline::new(points.space().clone(), lifted)?;
-        Ok(Self { points, weights, homogeneous })
+        let is_polynomial = weights.windows(2).all(|pair| pair[0].to_bits() == pair[1].to_bits());
+        Ok(Self { points, weights, homogeneous, is_polynomial })
     }
 
     /// The polynomial curve: all weights 1.
@@ -116,7 +135,7 @@ impl<P: Projective> Nurbs<P> {
 
     /// Whether all weights are the same number, so that the curve is polynomial.
     pub fn is_polynomial(&self) -> bool {
-        self.weights.windows(2).all(|pair| pair[0].to_bits() == pair[1].to_bits())
+        self.is_polynomial
     }
 
     /// The spline `Σ cₖ bₖ` of the control points without the weights; the curve itself if [`Self::is_polynomial`].
@@ -148,22 +167,37 @@ impl<P: Projective> Nurbs<P> {
     ///
     /// `NonFinite`, `OutsideInterval`.
     pub fn derivatives(&self, t: f64, count: usize, side: Side) -> Result<Vec<P>, SplineError> {
+        let mut values = vec![P::ZERO; count + 1];
+        self.derivatives_into(t, side, &mut values)?;
+        Ok(values)
+    }
+
+    /// As many of `r, r′, …` as `values` has room for, as [`Self::derivatives`]; does not allocate.
+    ///
+    /// # Errors
+    ///
+    /// `NonFinite`, `OutsideInterval`; `values` then stay as they are.
+    pub fn derivatives_into(&self, t: f64, side: Side, values: &mut [P]) -> Result<(), SplineError> {
         if self.is_polynomial() {
-            return self.points.derivatives(t, count, side);
+            return self.points.derivatives_into(t, side, values);
         }
-        let lifted = self.homogeneous.derivatives(t, count, side)?;
+        // Derivatives of the homogeneous curve above the degree are 0.
+        let mut buffer = [P::Homogeneous::ZERO; MAX_DEGREE + 1];
+        let lifted = &mut buffer[..values.len().min(self.degree() + 1)];
+        self.homogeneous.derivatives_into(t, side, lifted)?;
+        let Some(&point) = lifted.first() else { return Ok(()) };
         let weight = |j: usize| lifted[j].coordinate(P::DIMENSION);
-        let mut values: Vec<P> = Vec::with_capacity(count + 1);
-        for j in 0..=count {
-            let mut numerator = P::numerator(lifted[j]);
+        let scale = point.coordinate(P::DIMENSION).recip();
+        for j in 0..values.len() {
+            let mut numerator = lifted.get(j).map_or(P::ZERO, |&lifted| P::numerator(lifted));
             let mut binomial = 1.0;
-            for i in 1..=j {
+            for i in 1..=j.min(lifted.len() - 1) {
                 binomial *= (j + 1 - i) as f64 / i as f64;
                 numerator = numerator - values[j - i] * (binomial * weight(i));
             }
-            values.push(numerator * weight(0).recip());
+            values[j] = numerator * scale;
         }
-        Ok(values)
+        Ok(())
     }
 
     /// De Boor's scheme of the homogeneous spline at `t`.

@@ -9,6 +9,7 @@
 
 use crate::core::bspline::{Spline, SplineError, SplineSpace};
 use crate::core::point::Point;
+use crate::core::progress::{Unwatched, Watcher};
 use crate::core::rational_bezier::Projective;
 use crate::core::spline_curve::knot_removal::{Step, removal_step};
 use crate::core::spline_curve::{Deviation, Nurbs, deviation};
@@ -42,29 +43,48 @@ impl<P: Point> Spline<P> {
     ///
     /// `InvalidTolerance` for a negative one; with 0 only knots go whose `δ` is exactly 0.
     pub fn remove_knots(&self, tolerance: f64) -> Result<KnotReduction<P>, SplineError> {
+        self.remove_knots_watched(tolerance, &Unwatched)
+    }
+
+    /// As [`Self::remove_knots`]; after every pass `watcher` hears a part done that grows, since nobody knows how many passes follow.
+    ///
+    /// # Errors
+    ///
+    /// As there; `Stopped`.
+    pub fn remove_knots_watched(
+        &self,
+        tolerance: f64,
+        watcher: &impl Watcher,
+    ) -> Result<KnotReduction<P>, SplineError> {
         if tolerance.is_nan() || tolerance < 0.0 {
             return Err(SplineError::InvalidTolerance { value: tolerance });
         }
         let before = self.space().dimension();
         let intervals = self.space().breaks().len() - 1;
         let (spline, bounds) = if self.space().is_periodic() {
-            self.remove_closed(tolerance)?
+            self.remove_closed(tolerance, watcher)?
         } else {
             let mut open = Stretch::new(self, vec![0.0; intervals]);
-            while open.pass(tolerance, 0..self.coefficients().len()) > 0 {}
+            let mut passes = 0;
+            while open.pass(tolerance, 0..self.coefficients().len()) > 0 {
+                passes += 1;
+                watcher.check(part_done(passes))?;
+            }
             (Self::new(SplineSpace::new(self.degree(), open.knots)?, open.coefficients)?, open.bounds)
         };
         Ok(KnotReduction { removed: before - spline.space().dimension(), spline, bounds })
     }
 
-    fn remove_closed(&self, tolerance: f64) -> Result<(Self, Vec<f64>), SplineError> {
+    fn remove_closed(&self, tolerance: f64, watcher: &impl Watcher) -> Result<(Self, Vec<f64>), SplineError> {
         let n = self.degree();
         let mut spline = self.clone();
         let mut bounds = vec![0.0; spline.space().breaks().len() - 1];
         let (left, _) = self.space().parameter_interval();
-        let mut idle = 0;
+        let (mut idle, mut passes) = (0, 0);
         // A period without room for an open stretch keeps its knots, except one by one below.
         while idle < 2 && spline.space().dimension() > 4 * n + 4 {
+            passes += 1;
+            watcher.check(part_done(passes))?;
             let mut open = Stretch::new(&spline.unroll()?, bounds);
             // The first and the last n coefficients stand there twice.
             let inner = n + 1..open.coefficients.len() - n - 1;
@@ -98,6 +118,11 @@ impl<P: Point> Spline<P> {
         }
         back_to_start(&spline, bounds, left)
     }
+}
+
+/// `1 − 2/(2 + passes)`, below 1.
+fn part_done(passes: u32) -> f64 {
+    1.0 - 2.0 / (2.0 + f64::from(passes))
 }
 
 /// The same spline with the period starting about half a period later, and its bounds.
@@ -233,12 +258,25 @@ impl<P: Projective> Nurbs<P> {
     ///
     /// As [`Spline::remove_knots`].
     pub fn remove_knots(&self, tolerance: f64) -> Result<NurbsKnotReduction<P>, SplineError> {
+        self.remove_knots_watched(tolerance, &Unwatched)
+    }
+
+    /// As [`Spline::remove_knots_watched`].
+    ///
+    /// # Errors
+    ///
+    /// As there.
+    pub fn remove_knots_watched(
+        &self,
+        tolerance: f64,
+        watcher: &impl Watcher,
+    ) -> Result<NurbsKnotReduction<P>, SplineError> {
         let least = self.weights().iter().copied().fold(f64::INFINITY, f64::min);
         let largest = self.points().iter().fold(0.0, |largest: f64, point| largest.max(point.norm()));
         let homogeneous = tolerance * least / (1.0 + largest + tolerance);
         let curve = self.mapped(
-            |spline| Ok(spline.remove_knots(tolerance)?.spline),
-            |spline| Ok(spline.remove_knots(homogeneous)?.spline),
+            |spline| Ok(spline.remove_knots_watched(tolerance, watcher)?.spline),
+            |spline| Ok(spline.remove_knots_watched(homogeneous, watcher)?.spline),
         )?;
         let deviation = deviation(self, &curve)?;
         Ok(NurbsKnotReduction { removed: self.points().len() - curve.points().len(), curve, deviation })
@@ -251,6 +289,17 @@ mod tests {
     use crate::core::spline_curve::samples::{any_curve, any_spline, distance};
     use glam::DVec2;
     use proptest::prelude::*;
+
+    #[test]
+    fn a_watcher_stops_the_removal() {
+        let start =
+            Spline::new(SplineSpace::new(1, vec![0.0, 1.0, 2.0, 3.0]).unwrap(), vec![0.0, 1.0]).unwrap();
+        let refined = start.insert_knots(&[1.2, 1.4, 1.5, 1.6, 1.8]).unwrap();
+        let stopped = refined.remove_knots_watched(1e-9, &|_: f64| false);
+        assert_eq!(stopped.unwrap_err().name(), "Stopped", "after the first pass");
+        let reduced = refined.remove_knots_watched(1e-9, &|part: f64| part < 1.0).unwrap();
+        assert_eq!(reduced.removed, 5, "to the end");
+    }
 
     fn curve(spline: &Spline<DVec2>) -> Nurbs<DVec2> {
         Nurbs::polynomial(spline.space().clone(), spline.coefficients().to_vec()).unwrap()

@@ -54,7 +54,7 @@ impl Nurbs<DVec2> {
                     || (closed && i == 0 && j == last && near(t, a, b - a) && near(u, d, d - c))
             };
             hits.retain(|hit| {
-                !(is_neighbour && at_joint(hit.parameters)) && !self.stays_near(hit, tolerance)
+                !((is_neighbour && at_joint(hit.parameters)) || self.stays_near(hit, tolerance))
             });
             found.append(&mut hits);
         }

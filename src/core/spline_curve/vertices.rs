@@ -16,6 +16,9 @@ const SAME: f64 = 1e-9;
 /// The rounding error of a curvature in units of that of the coordinates over the square of the size.
 const NOISE: f64 = 100.0;
 
+/// Curvatures above this, times the size of the pieces, belong to cusps.
+const SHARPEST: f64 = 1e10;
+
 /// What kind of extremum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum VertexKind {
@@ -65,13 +68,14 @@ impl Nurbs<DVec2> {
     ///
     /// `NonFinite` where products of coordinates overflow.
     pub fn vertices(&self) -> Result<Vertices, SplineError> {
-        let (mut signs, mut noise) = (Vec::new(), Vec::new());
+        let (mut signs, mut noise, mut size) = (Vec::new(), Vec::new(), 0.0_f64);
         for (index, piece) in self.local_pieces()?.iter().enumerate() {
             let piece_signs = match checked(index, turning_change(piece))? {
                 Some(change) => PieceSigns::new(&change.coefficients, change.noise),
                 None => PieceSigns::new(&[0.0], 0.0),
             };
             signs.push((piece.interval, piece_signs));
+            size = size.max(piece.extent);
             noise.push(NOISE * piece.error / (piece.extent * piece.extent));
         }
         let is_closed = self.space().is_periodic();
@@ -84,6 +88,10 @@ impl Nurbs<DVec2> {
             let sides = [if t == start && !is_closed { Side::Right } else { Side::Left }, Side::Right];
             let sides = if is_end && t == end { [Side::Left; 2] } else { sides };
             let [Ok(left), Ok(right)] = sides.map(|side| self.curvature(t, side)) else { continue };
+            // Of a speed that is 0 up to rounding nothing is left but rounding.
+            if left.abs().max(right.abs()) * size > SHARPEST {
+                continue;
+            }
             // The pieces on both sides; the last one goes before the first of a closed curve.
             let noise = noise[place.piece.min(noise.len() - 1)]
                 .max(noise[place.piece.checked_sub(1).unwrap_or(noise.len() - 1)]);

@@ -2,10 +2,12 @@
 //!
 //! Then `n + 1` consecutive control points are those of a Bezier curve, and neighbours share one. Course: section 6.4.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
+use crate::core::bspline::Spline;
 use crate::core::spline_curve::Nurbs;
 use crate::course::number_text::short_number;
+use crate::course::stepper::entry::Parent;
 use crate::course::stepper::narration::{
     Name, Shares, counted, mixture, multiplicity_word, overlap, range_of, sentence,
 };
@@ -51,48 +53,81 @@ pub(super) fn story(curve: &Nurbs<DVec2>, t: f64) -> Result<Stepper, String> {
     );
     teller.tell(caption, format!("n = {n}"), ties.clone(), ties);
     let mut spline = net.spline.clone();
-    for (knot, times) in missing {
-        for _ in 0..times {
-            let scheme = spline.insertion_scheme(knot, 1).map_err(|error| sentence(&error))?;
-            overlap(spline.space(), n - scheme.multiplicity)?;
-            let first = scheme.span + 1 - n;
-            let [old, new] = scheme.triangle.levels() else {
-                return Err("The insertion has no new points.".to_owned());
-            };
-            let round = teller.levels.len();
-            let before = |k: usize| {
-                Name::new('c', spline.space().coefficient_index(k), (round > 1).then(|| round - 1))
-            };
-            let entry = |(j, &value): (usize, &_)| Entry {
-                share: Some(scheme.triangle.weights()[0][j]),
-                ..Entry::homogeneous(
-                    Name::new('c', spline.space().coefficient_index(first + j), Some(round)),
-                    value,
-                    net.rational,
-                )
-            };
-            let entries: Vec<Entry> = new.iter().enumerate().map(entry).collect();
-            let parents = [0, 1].map(|j| Entry::homogeneous(before(first + j - 1), old[j], net.rational));
-            let knots = spline.space().evaluation_knots();
-            let shares = Shares::Fraction { at: knot, low: knots[first], high: knots[first + n] };
-            let (_, formula) = mixture(&entries[0], &parents[0], &parents[1], &shares);
-            let names = range_of(&entries);
-            let ties = teller.row(entries);
-            let caption = format!(
-                "The knot {} becomes {} knot: {}, {names}.",
-                short_number(knot),
-                multiplicity_word(scheme.multiplicity + 1),
-                counted(ties.len(), "new point")
-            );
-            spline = spline.insert_knot(knot).map_err(|error| sentence(&error))?;
-            teller.tell(caption, formula, ties.clone(), ties);
-            let polygon = net.polygon(&spline);
-            teller.draw(|drawing| drawing.line(polygon, StepInk::Result, 2.0));
-        }
+    // Where each control point stands in the table.
+    let mut owners: Vec<Tie> = teller.levels[0].iter().map(Entry::tie).collect();
+    for knot in missing.into_iter().flat_map(|(knot, times)| std::iter::repeat_n(knot, times)) {
+        let refined = insert(&mut teller, &net, &spline, &owners, knot)?;
+        owners = new_owners(&teller, &spline, &owners, &refined);
+        spline = refined;
+        let polygon = net.polygon(&spline);
+        teller.draw(|drawing| drawing.line(polygon, StepInk::Result, 2.0));
     }
     close(&mut teller, &net, curve);
     let last = teller.levels.len() - 1;
     Ok(teller.end(StepperKind::BezierForm, t, (last, 0)))
+}
+
+/// One insertion: a row with the new points, and a frame.
+fn insert(
+    teller: &mut Teller,
+    net: &Net,
+    spline: &Spline<DVec3>,
+    owners: &[Tie],
+    knot: f64,
+) -> Result<Spline<DVec3>, String> {
+    let (n, space) = (spline.degree(), spline.space());
+    let scheme = spline.insertion_scheme(knot, 1).map_err(|error| sentence(&error))?;
+    overlap(space, n - scheme.multiplicity)?;
+    let first = scheme.span + 1 - n;
+    let round = teller.levels.len();
+    let new = scheme.triangle.levels().get(1).ok_or("The insertion has no new points.")?;
+    let entry = |(j, &value): (usize, &DVec3)| {
+        let k = first + j;
+        let share = scheme.triangle.weights()[0][j];
+        let parent = |k: usize, factor: f64| Parent { tie: owners[space.coefficient_index(k)], factor };
+        Entry {
+            share: Some(share),
+            parents: vec![parent(k - 1, 1.0 - share), parent(k, share)],
+            ..Entry::homogeneous(Name::new('c', space.coefficient_index(k), Some(round)), value, net.rational)
+        }
+    };
+    let entries: Vec<Entry> = new.iter().enumerate().map(entry).collect();
+    let ties = teller.row(entries);
+    let row = &teller.levels[round];
+    let parent = |i: usize| {
+        let (level, position) = row[0].parents[i].tie;
+        &teller.levels[level][position]
+    };
+    let knots = space.evaluation_knots();
+    let shares = Shares::Fraction { at: knot, low: knots[first], high: knots[first + n] };
+    let (_, formula) = mixture(&row[0], parent(0), parent(1), &shares);
+    let caption = format!(
+        "The knot {} becomes {} knot: {}, {}.",
+        short_number(knot),
+        multiplicity_word(scheme.multiplicity + 1),
+        counted(row.len(), "new point"),
+        range_of(row)
+    );
+    teller.tell(caption, formula, ties.clone(), ties);
+    spline.insert_knot(knot).map_err(|error| sentence(&error))
+}
+
+/// Where the control points of `refined` stand: in the last row, or where they stood before. Those that stay keep their bits.
+fn new_owners(teller: &Teller, before: &Spline<DVec3>, owners: &[Tie], refined: &Spline<DVec3>) -> Vec<Tie> {
+    let last = teller.levels.len() - 1;
+    let kept = before.coefficients().iter().zip(owners);
+    let kept: Vec<(DVec3, Tie)> = kept.map(|(&value, &tie)| (value, tie)).collect();
+    let row = teller.levels[last].iter().map(|entry| {
+        let weight = entry.weight.unwrap_or(1.0);
+        let [x, y] = [entry.coordinates[0], entry.coordinates[1]];
+        (DVec3::new(x * weight, y * weight, weight), entry.tie())
+    });
+    let known: Vec<(DVec3, Tie)> = kept.into_iter().chain(row).collect();
+    let nearest = |value: &DVec3| {
+        let far = |known: &(DVec3, Tie)| known.0.distance_squared(*value);
+        known.iter().min_by(|a, b| far(a).total_cmp(&far(b))).map_or((0, 0), |found| found.1)
+    };
+    refined.coefficients().iter().map(nearest).collect()
 }
 
 /// The pieces, in two colours in turn.

@@ -400,4 +400,18 @@ mod tests {
             |frame: usize| stepper.drawing(frame).dots.iter().filter(|dot| dot.label.is_some()).count();
         assert_eq!((names(1), names(9)), (3, 1), "three ends of a long interval, one of a short one");
     }
+
+    #[test]
+    fn the_algorithm_of_every_lesson_applies_to_its_curve() {
+        let mut told = 0;
+        for lesson in crate::course::lessons() {
+            let Some(id) = lesson.view.selected_object else { continue };
+            let Some(curve) = lesson.document.curve(id) else { continue };
+            let t = crate::figure::composition::parameter_of(curve, lesson.view.parameters.get(&id).copied());
+            let story = stepper(lesson.view.stepper, curve, t, &lesson.view.stepper_choices);
+            assert!(story.is_ok(), "{}: {:?}: {}", lesson.heading(), lesson.view.stepper, story.unwrap_err());
+            told += 1;
+        }
+        assert!(told >= 10, "lessons with a curve: {told}");
+    }
 }

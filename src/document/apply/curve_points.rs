@@ -182,7 +182,7 @@ fn check_indices(object: ObjectId, curve: &Nurbs<DVec2>, indices: &[usize]) -> R
     }
 }
 
-fn check_finite(what: &'static str, vector: DVec2) -> Result<(), EditError> {
+pub(super) fn check_finite(what: &'static str, vector: DVec2) -> Result<(), EditError> {
     match vector.to_array().into_iter().find(|value| !value.is_finite()) {
         Some(value) => Err(EditError::NonFinite { what, value }),
         None => Ok(()),

@@ -1,10 +1,14 @@
 //! Carrying out edits. Every edit works on a copy of the document, so that a failing one leaves nothing behind.
 
+mod affine;
+mod bezier_form;
 mod curve_points;
 mod degree;
 mod knots;
 mod objects;
+mod offset;
 mod parametrization;
+mod parts;
 
 pub(in crate::document) use objects::check_name;
 
@@ -127,6 +131,15 @@ impl Document {
             Edit::SetDegree { object, degree } => degree::set(self, *object, *degree),
             Edit::SetClosed { object, closed: true } => parametrization::close(self, *object),
             Edit::SetClosed { object, closed: false } => parametrization::open(self, *object),
+            Edit::SplitCurve { object, at } => parts::split(self, *object, *at),
+            Edit::JoinCurves { object, other } => parts::join(self, *object, *other),
+            Edit::TrimCurve { object, from, to } => parts::trim(self, *object, *from, *to),
+            Edit::ToBezierForm { object } => bezier_form::all_knots(self, *object),
+            Edit::InterpolateEnds { object } => bezier_form::ends(self, *object),
+            Edit::TransformCurve { object, map } => affine::transform(self, *object, *map),
+            Edit::OffsetCurve { object, distance, tolerance } => {
+                offset::add(self, *object, *distance, *tolerance)
+            }
             Edit::Reverse { object } => {
                 self.change_curve(*object, |curve| Ok((curve.reversed()?, ShapeChange::None)))
             }
@@ -211,7 +224,7 @@ impl ShapeChange {
     fn deviation(self) -> Option<f64> {
         match self {
             Self::None => Some(0.0),
-            Self::Kept { deviation } => Some(deviation),
+            Self::Kept { deviation } | Self::Approximated { deviation } => Some(deviation),
             Self::Changed { deviation, .. } => deviation,
         }
     }

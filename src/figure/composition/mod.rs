@@ -5,6 +5,8 @@
 
 mod construction;
 mod curve_layers;
+mod looks;
+mod probe;
 
 use glam::DVec2;
 
@@ -16,6 +18,8 @@ use crate::figure::ticks::{grid_labels, grid_lines};
 
 pub use construction::{StepDot, StepDrawing, StepInk, StepLine, construction_items};
 pub use curve_layers::short_number;
+pub use looks::MANY_FOR_LOOKS;
+pub use probe::{Probe, probe, probe_ends};
 
 /// Name of the entry of [`View::panels`] that says whether the grid is drawn; it is if there is no entry.
 pub const GRID: &str = "grid";
@@ -78,17 +82,35 @@ fn push_curve(
     if display.hull {
         picture.push_layer(layer("convex hull"), curve_layers::hull(curve, parameter, display, theme));
     }
+    if display.distance_tube {
+        picture.push_layer(layer("distance tube"), looks::distance_tube(curve, display, theme));
+    }
     if display.osculating_circle {
         picture.push_layer(layer("circle of curvature"), curve_layers::circle(curve, parameter, theme));
     }
     if display.polygon {
         picture.push_layer(layer("control polygon"), curve_layers::polygon(curve, theme));
     }
+    if display.symmetry {
+        picture.push_layer(layer("symmetry"), looks::symmetry(curve, display, theme));
+    }
     picture.push_layer(layer("curve"), curve_layers::curve(curve, display, theme, viewport));
     if let Some(step) = step {
         picture.push_layer(layer("construction"), step.items(display, theme));
     } else if display.construction {
         picture.push_layer(layer("construction"), construction_items(curve, parameter, display, theme));
+    }
+    if display.bezier_points {
+        picture.push_layer(layer("Bezier points"), looks::bezier_points(curve, display, theme));
+    }
+    if display.inflections {
+        picture.push_layer(layer("inflections"), looks::inflections(curve, theme));
+    }
+    if display.vertices {
+        picture.push_layer(layer("curvature extrema"), looks::vertices(curve, theme));
+    }
+    if display.frame {
+        picture.push_layer(layer("frame"), looks::frame(curve, parameter, theme, viewport));
     }
     if display.knots {
         picture.push_layer(layer("knots"), curve_layers::knots(curve, display, theme));
@@ -97,4 +119,13 @@ fn push_curve(
         picture.push_layer(layer("control points"), curve_layers::points(curve, display, theme));
     }
     picture.push_layer(layer("labels"), curve_layers::labels(curve, display, theme));
+    if display.blossom_labels {
+        picture.push_layer(layer("blossom labels"), looks::blossom_labels(curve, theme));
+    }
+    if display.probe_line {
+        picture.push_layer(layer("probe line"), probe::items(curve, display, theme, viewport));
+    }
+    if display.hodograph {
+        picture.push_layer(layer("hodograph"), looks::hodograph(curve, parameter, display, theme, viewport));
+    }
 }
