@@ -5,6 +5,7 @@ use eframe::egui::Context;
 use crate::app::chart_panel;
 use crate::app::command::Command;
 use crate::app::lab::{Lab, Tool};
+use crate::app::side_rooms::SideRoom;
 use crate::app::surfaces::commands as surfaces;
 use crate::app::workspace::Room;
 use crate::app::{KNOT_LINE, LEFT_PANEL, RIGHT_PANEL};
@@ -172,6 +173,9 @@ pub(crate) fn is_on(command: Command, lab: &Lab) -> Option<bool> {
         Command::ToggleCharts => chart_panel::is_open(lab),
         Command::ToggleKeepCurve => lab.knots.keep_curve,
         Command::ToggleBuilder => lab.knots.builder.is_some(),
+        Command::ShowConic => lab.rooms.shows(SideRoom::Conic),
+        Command::ShowHomogeneous => lab.rooms.shows(SideRoom::Homogeneous),
+        Command::ShowHermite => lab.rooms.shows(SideRoom::Hermite),
         Command::LookLight => lab.theme.name == "light",
         Command::LookDark => lab.theme.name == "dark",
         Command::LookPresentation => lab.theme.name == "presentation",

@@ -10,6 +10,7 @@ use glam::DVec2;
 use crate::app::chart_panel::Charts;
 use crate::app::command::Command;
 use crate::app::sheet::{Sheet, Shelf};
+use crate::app::side_rooms::SideRooms;
 use crate::app::story_cache::StoryCache;
 use crate::app::workspace::Room;
 use crate::core::spline_curve::Nurbs;
@@ -164,6 +165,8 @@ pub enum SidePage {
     Stepper,
     /// The open lesson.
     Lesson,
+    /// A room for one subject.
+    Rooms,
 }
 
 /// The shared state.
@@ -207,6 +210,8 @@ pub struct Lab {
     pub stepper: StepperState,
     /// The knot line.
     pub knots: KnotHands,
+    /// The rooms beside the canvas.
+    pub rooms: SideRooms,
     /// The charts.
     pub charts: Charts,
     /// The open lesson, if any.
@@ -253,6 +258,7 @@ impl Lab {
             side: SidePage::Inspector,
             stepper: StepperState::default(),
             knots: KnotHands::default(),
+            rooms: SideRooms::default(),
             charts: Charts::default(),
             lesson: None,
             shape_note: None,
@@ -273,6 +279,7 @@ impl Lab {
         self.hovering = Hovered::Nothing;
         self.tool = Tool::Select;
         self.stepper = StepperState { open: self.stepper.open, ..StepperState::default() };
+        self.rooms.space = None;
         self.shape_note = None;
         self.before = None;
         self.shelf.opened += 1;

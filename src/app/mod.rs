@@ -34,6 +34,7 @@ mod preferences;
 mod progress_strip;
 mod scene_view;
 mod shortcut_sheet;
+pub mod side_rooms;
 mod smoke_log;
 mod status_bar;
 mod stepper_panel;

@@ -11,6 +11,7 @@ use crate::app::lab::{Lab, SidePage, Tone};
 use crate::app::painter::color32;
 use crate::app::palette::Palette;
 use crate::app::shortcut_sheet::ShortcutSheet;
+use crate::app::side_rooms;
 use crate::app::smoke_log::SmokeLog;
 use crate::app::workspace::{self, Room, Workspace};
 use crate::app::{
@@ -184,29 +185,35 @@ impl LabApp {
                         for (page, text) in [
                             (SidePage::Inspector, "Inspector"),
                             (SidePage::Stepper, "Stepper"),
+                            (SidePage::Rooms, "Rooms"),
                             (SidePage::Lesson, "Lesson"),
                         ] {
-                            // Algorithms step by step are shown for curves.
-                            if page == SidePage::Stepper && lab.room() != Room::Curves {
+                            // Algorithms step by step and rooms are shown for curves.
+                            if matches!(page, SidePage::Stepper | SidePage::Rooms)
+                                && lab.room() != Room::Curves
+                            {
                                 continue;
                             }
                             ui.selectable_value(&mut lab.side, page, text);
                         }
                     });
                     ui.separator();
-                    if lab.side == SidePage::Stepper && lab.room() != Room::Curves {
+                    if matches!(lab.side, SidePage::Stepper | SidePage::Rooms) && lab.room() != Room::Curves {
                         lab.side = SidePage::Inspector;
                     }
                     lab.stepper.open = lab.side == SidePage::Stepper;
+                    lab.rooms.open = lab.side == SidePage::Rooms;
                     match lab.side {
                         SidePage::Inspector => workspace.inspector(lab, ui),
                         SidePage::Stepper => stepper_panel::show(lab, ui),
+                        SidePage::Rooms => side_rooms::show(lab, ui),
                         SidePage::Lesson => lesson_panel::show(lab, ui),
                     }
                 });
             files.note_panel_size(RIGHT_PANEL, panel.response.rect.width());
         } else {
             lab.stepper.open = false;
+            lab.rooms.open = false;
         }
     }
 

@@ -90,6 +90,9 @@ impl Command {
             | Self::ToggleKnotLine
             | Self::ToggleCharts
             | Self::ToggleBuilder
+            | Self::ShowConic
+            | Self::ShowHomogeneous
+            | Self::ShowHermite
             | Self::ExportFrames
             | Self::ExportChart
             | Self::StepperPlay

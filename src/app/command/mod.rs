@@ -235,6 +235,12 @@ pub enum Command {
     ToggleRightPanel,
     /// Knot line on or off.
     ToggleKnotLine,
+    /// The conic of the selected curve, in the right panel.
+    ShowConic,
+    /// The selected curve in homogeneous coordinates, in the right panel.
+    ShowHomogeneous,
+    /// Cubics with given ends, in the right panel.
+    ShowHermite,
     /// Charts in place of the knot line.
     ToggleCharts,
     /// Light look.
@@ -267,7 +273,7 @@ pub enum Command {
 
 impl Command {
     /// All commands, in the order of menus, palette and sheet.
-    pub const ALL: [Self; 127] = [
+    pub const ALL: [Self; 130] = [
         Self::New,
         Self::Open,
         Self::Save,
@@ -381,6 +387,9 @@ impl Command {
         Self::ToggleLeftPanel,
         Self::ToggleRightPanel,
         Self::ToggleKnotLine,
+        Self::ShowConic,
+        Self::ShowHomogeneous,
+        Self::ShowHermite,
         Self::ToggleCharts,
         Self::LookLight,
         Self::LookDark,

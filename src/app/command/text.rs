@@ -213,6 +213,16 @@ impl Command {
             Self::ToggleLeftPanel => ("Objects and lessons", "Show or hide the left panel"),
             Self::ToggleRightPanel => ("Inspector and stepper", "Show or hide the right panel"),
             Self::ToggleKnotLine => ("Knot line", "Show or hide the knot line"),
+            Self::ShowConic => {
+                ("Conic of the curve", "Equation, type, axes and foci of a quadratic piece; its weight")
+            }
+            Self::ShowHomogeneous => {
+                ("Homogeneous coordinates", "The curve in space, its cone, and the plane w = 1")
+            }
+            Self::ShowHermite => (
+                "Geometric Hermite interpolation",
+                "All cubics with given end points, directions and curvatures",
+            ),
             Self::ToggleCharts => ("Charts", "Curvature, speed, x and y in place of the knot line"),
             Self::LookLight => ("Light look", "Dark ink on a light ground"),
             Self::LookDark => ("Dark look", "Light ink on a dark ground"),

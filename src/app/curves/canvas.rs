@@ -11,6 +11,7 @@ use crate::app::curves::draw_tool::Drawing;
 use crate::app::curves::gesture::Gesture;
 use crate::app::curves::ghost;
 use crate::app::curves::handles;
+use crate::app::curves::hermite_hands::HermiteHands;
 use crate::app::curves::hit::{Target, Trees, target_at};
 use crate::app::curves::probe_hands::ProbeHands;
 use crate::app::curves::step_hands::{self, StepHands};
@@ -19,6 +20,7 @@ use crate::app::lab::{DrawMode, Hovered, Lab, Tool};
 use crate::app::painter::{
     color32, paint_note, paint_note_at_pointer, paint_picture, screen_from_world, world_from_screen,
 };
+use crate::app::side_rooms;
 use crate::document::{Edit, ObjectId};
 use crate::figure::composition::{Composition, GRID, StepDrawing, compose_with, short_number};
 use crate::figure::picture::Viewport;
@@ -36,6 +38,7 @@ pub(crate) struct Canvas {
     gesture: Option<Gesture>,
     drawing: Drawing,
     step_hands: StepHands,
+    hermite_hands: HermiteHands,
     probe_hands: ProbeHands,
     menu_target: Target,
     /// Where the menu was asked for.
@@ -89,6 +92,7 @@ impl Canvas {
             self.drawing.rest(lab, held);
         }
         if !self.step_hands.drag(lab, &response, &viewport, rect, ui)
+            && !self.hermite_hands.drag(lab, &response, &viewport, rect, ui)
             && !self.probe_hands.drag(lab, &response, &viewport, rect, ui)
         {
             self.use_hands(lab, &response, &viewport, rect, target, ui);
@@ -279,10 +283,12 @@ impl Canvas {
     fn paint(&self, lab: &Lab, viewport: &Viewport, rect: Rect, pointer: Option<Pos2>, ui: &Ui) {
         let painter = ui.painter_at(rect);
         let choices = Composition { step: step(lab), transparent: false };
-        let picture = compose_with(lab.history.document(), &lab.view, &lab.theme, viewport, &choices);
+        let mut picture = compose_with(lab.history.document(), &lab.view, &lab.theme, viewport, &choices);
+        side_rooms::lay_over(side_rooms::overlay(lab, viewport), &mut picture);
         paint_picture(&picture, viewport, rect, &painter);
         ghost::paint(lab, viewport, rect, &painter);
         self.step_hands.paint(lab, viewport, rect, &painter, ui);
+        self.hermite_hands.paint(lab, viewport, rect, &painter, ui);
         let along = self.gesture.as_ref().map_or(0.0, Gesture::along);
         handles::paint(lab, viewport, rect, &painter, along);
         if lab.tool == Tool::Draw {

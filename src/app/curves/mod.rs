@@ -10,6 +10,7 @@ mod draw_tool;
 mod gesture;
 mod ghost;
 mod handles;
+mod hermite_hands;
 mod hit;
 mod operation_form;
 mod operations;
@@ -87,6 +88,7 @@ impl Workspace for Curves {
         self.form.open(command, lab)
             || operations::execute(command, lab)
             || crate::app::knot_line::execute(command, lab)
+            || crate::app::side_rooms::execute(command, lab)
             || self.canvas.execute(command, lab)
     }
 

@@ -11,6 +11,7 @@ use crate::app::files::job::Finish;
 use crate::app::files::question::Problem;
 use crate::app::files::{Files, name_of, view_to_save};
 use crate::app::lab::Lab;
+use crate::app::side_rooms;
 use crate::core::progress::{Part, Watcher};
 use crate::document::{Content, Edit, MeshObject, Object};
 use crate::exchange::by_ending::{self, FigureFormat};
@@ -70,9 +71,11 @@ impl Files {
         let (document, view, theme) = (lab.history.document().clone(), view_to_save(lab), lab.theme.clone());
         let camera = lab.view.room_camera();
         let viewport = Viewport { center: camera.center, scale: camera.scale, size: lab.canvas_size };
+        let overlay = side_rooms::overlay(lab, &viewport);
         self.start_job(format!("Writing {}", name_of(&path)), lab, ctx, move |watcher| {
             let written = page(&document, &view, &theme, &viewport).map_err(|error| error.to_string());
-            let written = written.and_then(|(picture, viewport)| {
+            let written = written.and_then(|(mut picture, viewport)| {
+                side_rooms::lay_over(overlay, &mut picture);
                 watcher.check(0.5).map_err(|stopped| stopped.to_string())?;
                 let bytes = by_ending::figure(format, &picture, &viewport, &document, &view, PNG_SCALE);
                 let bytes = bytes.map_err(|error| error.to_string())?;

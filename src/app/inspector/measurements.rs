@@ -43,7 +43,8 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, subject: &Subject) {
     });
 }
 
-pub(super) fn copyable(lab: &mut Lab, ui: &mut Ui, name: &str, numbers: &[f64]) {
+/// Numbers that a click copies with all their digits.
+pub(crate) fn copyable(lab: &mut Lab, ui: &mut Ui, name: &str, numbers: &[f64]) {
     let join =
         |write: fn(f64) -> String| numbers.iter().map(|&number| write(number)).collect::<Vec<_>>().join(", ");
     let response =

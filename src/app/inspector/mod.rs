@@ -15,6 +15,8 @@ use crate::app::lab::Lab;
 use crate::core::spline_curve::Nurbs;
 use crate::document::{CurveDisplay, ObjectId};
 
+pub(crate) use measurements::copyable;
+
 /// The selected curve, as it was at the beginning of the frame.
 #[derive(Clone, Debug)]
 struct Subject {
