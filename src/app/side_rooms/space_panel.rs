@@ -146,10 +146,11 @@ fn drag(
         }
         _ => {}
     }
-    if !down && let Some(held) = space.held.take() {
-        if matches!(held, Held::Point(..)) {
-            lab.commit();
-        }
+    if !down
+        && let Some(held) = space.held.take()
+        && matches!(held, Held::Point(..))
+    {
+        lab.commit();
     }
     if scroll != 0.0 && response.contains_pointer() {
         let view = EyeView { eye: space.eye, size };
