@@ -2,7 +2,7 @@
 
 use eframe::egui::{
     Align, Align2, Color32, ColorImage, FontFamily, FontId, Painter, Pos2, Rect, Shape, Stroke as PenStroke,
-    TextureOptions, Vec2, epaint, pos2, vec2,
+    TextureOptions, Vec2, epaint, pos2, text::LayoutJob, vec2,
 };
 use glam::DVec2;
 
@@ -277,6 +277,19 @@ pub(crate) fn paint_note(
     let place = anchor.anchor_size(at, galley.size());
     painter.rect_filled(place.expand2(vec2(6.0, 3.0)), 4.0, color32(ground.with_opacity(0.85)));
     painter.galley(place.min, galley, color32(ink));
+}
+
+/// A sentence for the user along the upper edge of `rect`, in as many centred lines as its width asks for.
+pub(crate) fn paint_hint(painter: &Painter, rect: Rect, text: &str, ink: Color, theme: &Theme) {
+    let ink = color32(ink);
+    let font = FontId::proportional(13.0 * theme.text_scale as f32);
+    let width = (rect.width() - 32.0).max(60.0);
+    let mut job = LayoutJob::simple(text.to_owned(), font, ink, width);
+    job.halign = Align::Center;
+    let galley = painter.layout_job(job);
+    let place = Align2::CENTER_TOP.anchor_size(rect.center_top() + vec2(0.0, 14.0), galley.size());
+    painter.rect_filled(place.expand2(vec2(6.0, 3.0)), 4.0, color32(theme.background.with_opacity(0.85)));
+    painter.galley(pos2(rect.center().x, place.top()), galley, ink);
 }
 
 /// [`paint_note`] beside the pointer, on the side where `rect` has room for it.

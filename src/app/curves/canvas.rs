@@ -1,6 +1,6 @@
 //! The canvas: camera, picture, handles, and the hands on them.
 
-use eframe::egui::{self, Align2, CursorIcon, Pos2, Rect, Sense, Stroke, StrokeKind, Ui, vec2};
+use eframe::egui::{self, CursorIcon, Pos2, Rect, Sense, Stroke, StrokeKind, Ui};
 use glam::DVec2;
 
 use crate::app::command::Command;
@@ -18,7 +18,7 @@ use crate::app::curves::step_hands::{self, StepHands};
 use crate::app::hands;
 use crate::app::lab::{DrawMode, Hovered, Lab, Tool};
 use crate::app::painter::{
-    color32, paint_note, paint_note_at_pointer, paint_picture, screen_from_world, world_from_screen,
+    color32, paint_hint, paint_note_at_pointer, paint_picture, screen_from_world, world_from_screen,
 };
 use crate::app::side_rooms;
 use crate::document::{Edit, ObjectId};
@@ -308,16 +308,7 @@ impl Canvas {
         }
         let hint = if lab.tool == Tool::Draw { Some(self.drawing.hint(lab)) } else { hint(lab) };
         if let Some(hint) = hint {
-            let at = rect.center_top() + vec2(0.0, 14.0);
-            paint_note(
-                &painter,
-                at,
-                Align2::CENTER_TOP,
-                hint,
-                13.0 * lab.theme.text_scale as f32,
-                lab.theme.muted_text,
-                lab.theme.background,
-            );
+            paint_hint(&painter, rect, hint, lab.theme.muted_text, &lab.theme);
         }
     }
 

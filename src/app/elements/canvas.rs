@@ -13,7 +13,9 @@ use crate::app::elements::hit::{Target, target_at};
 use crate::app::elements::{CAMERA, Elements, Subject, add, context_menu, marks};
 use crate::app::hands;
 use crate::app::lab::Lab;
-use crate::app::painter::{color32, paint_note, paint_picture, screen_from_world, world_from_screen};
+use crate::app::painter::{
+    color32, paint_hint, paint_note, paint_picture, screen_from_world, world_from_screen,
+};
 use crate::app::progress_strip::{self, State};
 use crate::document::{Camera, HandleId, MembraneDisplay, ObjectId, Shape};
 use crate::figure::composition::short_number;
@@ -313,9 +315,7 @@ fn paint(
     }
     let untouched = lab.history.steps() == (0, 0) && lab.path.is_none() && lab.lesson.is_none();
     if let Some(text) = hint(subject).filter(|_| untouched || subject.membrane.handles().is_empty()) {
-        let size = 13.0 * theme.text_scale as f32;
-        let at = rect.center_top() + vec2(0.0, 14.0);
-        paint_note(painter, at, Align2::CENTER_TOP, text, size, theme.muted_text, theme.background);
+        paint_hint(painter, rect, text, theme.muted_text, theme);
     }
 }
 

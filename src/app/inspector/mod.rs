@@ -1,7 +1,6 @@
 //! Everything about the selected curve as numbers and choices.
 
 mod appearance;
-mod conic;
 mod knots;
 mod measurements;
 mod points;
@@ -51,10 +50,6 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
         section(ui, "Knots", true, |ui| knots::show(lab, ui, &subject));
         section(ui, "Shown", true, |ui| appearance::show(lab, ui, &subject));
         section(ui, "At the parameter t", true, |ui| measurements::show(lab, ui, &subject));
-        let at_parameter = lab.parameter(subject.object).and_then(|t| conic::piece(&subject.curve, t));
-        if let Some(piece) = at_parameter {
-            section(ui, "Conic at t", true, |ui| conic::show(lab, ui, &subject, &piece));
-        }
         section(ui, "Whole curve", true, |ui| whole::show(lab, ui, &subject));
         ui.add_space(8.0);
     });

@@ -1,10 +1,10 @@
 //! What is painted over the scene.
 
-use eframe::egui::{self, Align2, Pos2, Rect, Stroke, StrokeKind, Ui, vec2};
+use eframe::egui::{self, Pos2, Rect, Stroke, StrokeKind, Ui};
 use glam::DVec3;
 
 use crate::app::lab::Lab;
-use crate::app::painter::{color32, paint_note, paint_picture};
+use crate::app::painter::{color32, paint_hint, paint_picture};
 use crate::app::scene_view::screen_from_page;
 use crate::app::surfaces::canvas::Canvas;
 use crate::app::surfaces::target::Target;
@@ -59,9 +59,7 @@ pub(super) fn paint(canvas: &Canvas, lab: &Lab, view: &EyeView, rect: Rect, poin
         painter.rect(marquee, 0.0, ink.gamma_multiply(0.12), Stroke::new(1.0, ink), StrokeKind::Inside);
     }
     if let Some((text, color)) = said(canvas, lab) {
-        let at = rect.center_top() + vec2(0.0, 14.0);
-        let size = 13.0 * theme.text_scale as f32;
-        paint_note(&painter, at, Align2::CENTER_TOP, &text, size, color, theme.background);
+        paint_hint(&painter, rect, &text, color, theme);
     }
 }
 
