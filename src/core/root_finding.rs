@@ -4,10 +4,17 @@
 //! `p′`, found in the same way, divide `[0, 1]` into pieces on which `p` is monotone: each has at most one zero, and
 //! a zero of `p′` at which `p` is 0 up to rounding is a multiple one. Neighbouring zeros that rounding cannot tell apart
 //! count as one multiple zero, and so do two complex ones as close to the interval.
+//!
+//! Each derivative magnifies the error of the coefficients, by `2n` at most. Where that would leave nothing of the last ones, halving
+//! comes first: parts with one sign change or none are settled, and only the small parts near multiple zeros are left to derivatives.
 
 use std::iter::once;
 
-use crate::core::triangular_scheme::collapse;
+use crate::core::point::Point as _;
+use crate::core::triangular_scheme::{collapse, collapse_both};
+
+/// Parts of `[0, 1]` that are not divided any more.
+const SMALLEST_PART: f64 = 1e-9;
 
 /// A zero of a polynomial.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,12 +88,73 @@ fn exponent(value: f64) -> i32 {
     if value > 0.0 { (value.log2() as i32).clamp(-1000, 1000) } else { 0 }
 }
 
+/// `noise`, or the error of an evaluation if that is larger: de Casteljau's algorithm takes n convex combinations of three
+/// rounded operations each.
+fn with_rounding(c: &[f64], noise: f64) -> f64 {
+    noise.max(2.0 * c.len() as f64 * f64::EPSILON * largest(c))
+}
+
 /// The zeros of a polynomial that is not 0; `noise` is the error of its coefficients.
 fn zeros(c: &[f64], noise: f64) -> Vec<Zero> {
+    let noise = with_rounding(c, noise);
+    // The errors of the highest derivatives.
+    let magnified = (1..c.len()).fold(noise, |error, k| 2.0 * k as f64 * error);
+    if magnified <= 1e-3 * largest(c) { zeros_by_derivative(c, noise) } else { zeros_by_halving(c, noise) }
+}
+
+/// Parts of `[0, 1]` are divided until they have a sign change or none, or everything in them is small.
+fn zeros_by_halving(c: &[f64], noise: f64) -> Vec<Zero> {
     let n = c.len() - 1;
-    // De Casteljau's algorithm takes n convex combinations of three rounded operations each.
-    let rounding = 2.0 * (n + 1) as f64 * f64::EPSILON * largest(c);
-    let noise = noise.max(rounding);
+    let is_zero = |value: f64| value.abs() <= noise;
+    // A part with a double zero is left while its second derivative still stands out of the noise.
+    let small = (noise * largest(c)).sqrt();
+    let mut scratch = c.to_vec();
+    let mut found = Vec::new();
+    let mut unsettled: Option<(f64, f64)> = None;
+    let mut parts = vec![(0.0, 1.0, c.to_vec())];
+    while let Some((a, b, mut part)) = parts.pop() {
+        let changes = strict_sign_changes(&part, noise);
+        if changes <= 1 && !is_zero(part[0]) && !is_zero(part[n]) {
+            found.extend(unsettled.take().into_iter().flat_map(|ends| zeros_of_part(c, ends, noise)));
+            if changes == 1 {
+                let at = a.mix(b, bracketed_zero(&part, &mut scratch, 0.0, 1.0));
+                found.push(Zero { at, multiplicity: 1 });
+            }
+            continue;
+        }
+        // Not at a zero, which would be one of both parts.
+        let place = [0.5, 0.4375, 0.5625].into_iter().find(|&t| !is_zero(value_at(&part, &mut scratch, t)));
+        match place.filter(|_| largest(&part) > small && b - a > SMALLEST_PART) {
+            Some(t) => {
+                let middle = a.mix(b, t);
+                let mut left = vec![0.0; n + 1];
+                collapse_both(&mut part, t, &mut left);
+                parts.push((middle, b, part));
+                parts.push((a, middle, left));
+            }
+            None => unsettled = Some((unsettled.map_or(a, |(start, _)| start), b)),
+        }
+    }
+    found.extend(unsettled.into_iter().flat_map(|ends| zeros_of_part(c, ends, noise)));
+    found
+}
+
+/// The zeros in `[a, b]`, by derivatives.
+fn zeros_of_part(c: &[f64], (a, b): (f64, f64), noise: f64) -> Vec<Zero> {
+    let mut part = c.to_vec();
+    let mut left = c.to_vec();
+    collapse_both(&mut part, b, &mut left);
+    if b > 0.0 {
+        collapse(&mut left, a / b);
+    }
+    let mut found = zeros_by_derivative(&left, noise);
+    found.iter_mut().for_each(|zero| zero.at = a.mix(b, zero.at));
+    found
+}
+
+/// The zeros of a polynomial whose coefficients have errors up to `noise`, between those of its derivative.
+fn zeros_by_derivative(c: &[f64], noise: f64) -> Vec<Zero> {
+    let n = c.len() - 1;
     let is_zero = |value: f64| value.abs() <= noise;
     let changes = strict_sign_changes(c, noise);
     if changes == 0 {
@@ -109,7 +177,7 @@ fn zeros(c: &[f64], noise: f64) -> Vec<Zero> {
     let critical = if largest(&derivative) <= derivative_noise {
         Vec::new()
     } else {
-        zeros(&derivative, derivative_noise)
+        zeros_by_derivative(&derivative, with_rounding(&derivative, derivative_noise))
     };
     let inner = critical.iter().filter(|zero| 0.0 < zero.at && zero.at < 1.0).copied();
     let at_end = |end: f64| {
@@ -354,6 +422,40 @@ mod tests {
         assert_eq!(at.len(), 3, "{zeros:?}");
         for (found, exact) in at.iter().zip([0.25, 0.5, 0.8]) {
             assert!((found - exact).abs() < 1e-12, "{found} for {exact}");
+        }
+    }
+
+    #[test]
+    fn noise_that_the_derivatives_magnify_hides_no_zeros() {
+        for degree in [12, 21, 29] {
+            let mut c = with_zeros(&[0.48, 0.96], &[]);
+            while c.len() <= degree {
+                c = product(&c, &[1.0, 0.7]);
+            }
+            for noise in [0.0, 1e-13, 1e-10, 1e-7] {
+                let zeros = bernstein_zeros(&c, noise * largest(&c));
+                let at: Vec<f64> = zeros.sign_changes().collect();
+                assert_eq!(at.len(), 2, "degree {degree}, noise {noise}: {zeros:?}");
+                assert!((at[0] - 0.48).abs() < 1e-9 && (at[1] - 0.96).abs() < 1e-9, "{at:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn multiple_zeros_of_a_high_degree_are_told() {
+        for (roots, expected) in
+            [(vec![0.3, 0.3], vec![(0.3, 2)]), (vec![0.5, 0.5, 0.5, 0.9], vec![(0.5, 3), (0.9, 1)])]
+        {
+            let mut c = with_zeros(&roots, &[]);
+            while c.len() < 20 {
+                c = product(&c, &[1.0, 0.8]);
+            }
+            let zeros = bernstein_zeros(&c, 0.0);
+            let found: Vec<_> = zeros.isolated().iter().map(|zero| zero.multiplicity).collect();
+            assert_eq!(found, expected.iter().map(|zero| zero.1).collect::<Vec<_>>(), "{zeros:?}");
+            for (zero, (at, _)) in zeros.isolated().iter().zip(&expected) {
+                assert!((zero.at - at).abs() < 1e-4, "{zero:?} for {at}");
+            }
         }
     }
 

@@ -25,6 +25,8 @@ use crate::document::{Edit, ObjectId};
 use crate::figure::composition::{Composition, GRID, StepDrawing, compose_with, short_number};
 use crate::figure::picture::Viewport;
 
+/// Room that the handle of a control point takes on all sides, in pt.
+const HANDLE: f64 = 14.0;
 /// Room around the objects when they are fitted, in pt.
 const FIT_MARGIN: f64 = 60.0;
 
@@ -347,7 +349,7 @@ fn shows_everything(lab: &Lab) -> bool {
     lab.history.document().bounding_box().is_none_or(|(low, high)| {
         [low, high].into_iter().all(|corner| {
             let page = viewport(lab).page_from_world(corner);
-            page.cmpge(DVec2::ZERO).all() && page.cmple(lab.canvas_size).all()
+            page.cmpge(DVec2::splat(HANDLE)).all() && page.cmple(lab.canvas_size - HANDLE).all()
         })
     })
 }

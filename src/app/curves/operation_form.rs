@@ -5,9 +5,12 @@ use glam::DVec2;
 
 use crate::app::command::Command;
 use crate::app::lab::Lab;
-use crate::app::number_field::{NumberEvent, NumberField, positive};
+use crate::app::number_field::{Drag, NumberEvent, NumberField, positive};
 use crate::core::spline_curve::Nurbs;
 use crate::document::{CurveMap, Edit};
+
+/// How lengths and parameters are dragged.
+const LENGTH: Drag = Drag::PerPixel(0.01);
 
 /// Which operation is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -142,30 +145,30 @@ impl OperationForm {
         let any = |_| Ok(());
         match (kind, self.map) {
             (Kind::Trim, _) => {
-                number("From t", &mut self.from, any, ui);
-                number("To t", &mut self.to, any, ui);
+                number("From t", &mut self.from, any, LENGTH, ui);
+                number("To t", &mut self.to, any, LENGTH, ui);
             }
             (Kind::Offset, _) => {
-                number("Distance", &mut self.distance, any, ui);
-                number("Tolerance", &mut self.tolerance, positive, ui);
+                number("Distance", &mut self.distance, any, LENGTH, ui);
+                number("Tolerance", &mut self.tolerance, positive, Drag::Factor, ui);
             }
             (Kind::Transform, Map::Move) => {
-                number("Move x by", &mut self.by.x, any, ui);
-                number("Move y by", &mut self.by.y, any, ui);
+                number("Move x by", &mut self.by.x, any, LENGTH, ui);
+                number("Move y by", &mut self.by.y, any, LENGTH, ui);
             }
             (Kind::Transform, map) => {
                 if map == Map::Scale {
-                    number("Factor in x", &mut self.factors.x, not_zero, ui);
-                    number("Factor in y", &mut self.factors.y, not_zero, ui);
+                    number("Factor in x", &mut self.factors.x, not_zero, Drag::Factor, ui);
+                    number("Factor in y", &mut self.factors.y, not_zero, Drag::Factor, ui);
                 } else {
-                    number("Degrees", &mut self.degrees, any, ui);
+                    number("Degrees", &mut self.degrees, any, Drag::PerPixel(1.0), ui);
                 }
                 let [x, y] = match map {
                     Map::Mirror => ["Line through x", "Line through y"],
                     _ => ["Centre x", "Centre y"],
                 };
-                number(x, &mut self.about.x, any, ui);
-                number(y, &mut self.about.y, any, ui);
+                number(x, &mut self.about.x, any, LENGTH, ui);
+                number(y, &mut self.about.y, any, LENGTH, ui);
             }
         }
     }
@@ -195,10 +198,10 @@ impl OperationForm {
     }
 }
 
-fn number(label: &str, value: &mut f64, check: fn(f64) -> Result<(), String>, ui: &mut Ui) {
+fn number(label: &str, value: &mut f64, check: fn(f64) -> Result<(), String>, drag: Drag, ui: &mut Ui) {
     ui.label(label);
-    let event = NumberField::new(label, *value).width(90.0).check(check).show(ui, label).event;
-    if let Some(NumberEvent::Typed { to, .. }) = event {
+    let event = NumberField::new(label, *value).width(90.0).check(check).drag(drag).show(ui, label).event;
+    if let Some(NumberEvent::Typed { to, .. } | NumberEvent::Dragged { to, .. }) = event {
         *value = to;
     }
     ui.end_row();

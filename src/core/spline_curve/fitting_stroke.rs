@@ -212,6 +212,7 @@ impl Part {
         }
         let mut breaks: Vec<f64> =
             (0..=pieces).map(|i| left + (right - left) * i as f64 / pieces as f64).collect();
+        let drawn = t;
         let mut t = t.to_vec();
         let ends = if period.is_some() { FitEnds::Free } else { FitEnds::Fixed };
         let mut best: Option<(Spline<DVec2>, f64)> = None;
@@ -225,8 +226,11 @@ impl Part {
             let fitted = fit_least_squares(points, &t, space.clone(), ends);
             let (mut spline, mut residuals) = match (fitted, &best) {
                 (Ok(fitted), _) => fitted,
-                // Knots that the data do not determine: the curve before is the best there is.
-                (Err(_), Some(_)) => break,
+                // Knots that the data do not determine, since corrected parameters crowd.
+                (Err(_), Some(_)) => {
+                    best = through_points(points, drawn, degree, period, most).or(best);
+                    break;
+                }
                 (Err(error), None) => return Err(error),
             };
             for _ in 0..CORRECTIONS {
@@ -247,14 +251,7 @@ impl Part {
                 break;
             }
             if !insert_knots(&mut breaks, &t, &residuals, degree, period, options.tolerance) {
-                // With as many coefficients as points there is no error left.
-                if period.is_none()
-                    && points.len() <= most
-                    && let Ok(space) = averaged_knots(degree, &t)
-                    && let Ok(spline) = interpolate(space, &t, points)
-                {
-                    best = Some((spline, 0.0));
-                }
+                best = through_points(points, drawn, degree, period, most).or(best);
                 break;
             }
         }
@@ -268,6 +265,21 @@ impl Part {
         }
         Ok(Self { spline: spline.elevate_degree_by(n - degree)?, reached, iterations })
     }
+}
+
+/// With as many coefficients as points there is no error left; `None` for closed strokes and more than `most` points.
+fn through_points(
+    points: &[DVec2],
+    t: &[f64],
+    degree: usize,
+    period: Option<f64>,
+    most: usize,
+) -> Option<(Spline<DVec2>, f64)> {
+    if period.is_some() || points.len() > most {
+        return None;
+    }
+    let spline = interpolate(averaged_knots(degree, t).ok()?, t, points).ok()?;
+    Some((spline, 0.0))
 }
 
 fn square_sum(residuals: &[DVec2]) -> f64 {

@@ -56,17 +56,27 @@ impl<P: Point> Spline<P> {
         tolerance: f64,
         watcher: &impl Watcher,
     ) -> Result<KnotReduction<P>, SplineError> {
+        self.remove_knots_where(tolerance, |_| true, watcher)
+    }
+
+    /// Only such removals as leave coefficients that are `allowed`.
+    fn remove_knots_where(
+        &self,
+        tolerance: f64,
+        allowed: impl Fn(&P) -> bool,
+        watcher: &impl Watcher,
+    ) -> Result<KnotReduction<P>, SplineError> {
         if tolerance.is_nan() || tolerance < 0.0 {
             return Err(SplineError::InvalidTolerance { value: tolerance });
         }
         let before = self.space().dimension();
         let intervals = self.space().breaks().len() - 1;
         let (spline, bounds) = if self.space().is_periodic() {
-            self.remove_closed(tolerance, watcher)?
+            self.remove_closed(tolerance, &allowed, watcher)?
         } else {
             let mut open = Stretch::new(self, vec![0.0; intervals]);
             let mut passes = 0;
-            while open.pass(tolerance, 0..self.coefficients().len()) > 0 {
+            while open.pass(tolerance, 0..self.coefficients().len(), &allowed) > 0 {
                 passes += 1;
                 watcher.check(part_done(passes))?;
             }
@@ -75,7 +85,12 @@ impl<P: Point> Spline<P> {
         Ok(KnotReduction { removed: before - spline.space().dimension(), spline, bounds })
     }
 
-    fn remove_closed(&self, tolerance: f64, watcher: &impl Watcher) -> Result<(Self, Vec<f64>), SplineError> {
+    fn remove_closed(
+        &self,
+        tolerance: f64,
+        allowed: &impl Fn(&P) -> bool,
+        watcher: &impl Watcher,
+    ) -> Result<(Self, Vec<f64>), SplineError> {
         let n = self.degree();
         let mut spline = self.clone();
         let mut bounds = vec![0.0; spline.space().breaks().len() - 1];
@@ -88,7 +103,7 @@ impl<P: Point> Spline<P> {
             let mut open = Stretch::new(&spline.unroll()?, bounds);
             // The first and the last n coefficients stand there twice.
             let inner = n + 1..open.coefficients.len() - n - 1;
-            let removed = open.pass(tolerance, inner);
+            let removed = open.pass(tolerance, inner, allowed);
             let unrolled = Self::new(SplineSpace::new(n, open.knots)?, open.coefficients)?;
             let Some(closed) = unrolled.closed_if_periodic(0.0) else {
                 return Err(SplineError::NoSolution {
@@ -103,7 +118,9 @@ impl<P: Point> Spline<P> {
             let mut best: Option<(f64, f64, Self)> = None;
             for &at in &breaks[..breaks.len() - 1] {
                 let Ok(removal) = spline.remove_knot(at) else { continue };
-                if best.as_ref().is_none_or(|(deviation, ..)| removal.deviation < *deviation) {
+                if removal.spline.coefficients().iter().all(allowed)
+                    && best.as_ref().is_none_or(|(deviation, ..)| removal.deviation < *deviation)
+                {
                     best = Some((removal.deviation, at, removal.spline));
                 }
             }
@@ -177,8 +194,13 @@ impl<P: Point> Stretch<P> {
         Self { n: spline.degree(), knots, coefficients, bounds }
     }
 
-    /// Removes knots that do not see each other and change only coefficients in `allowed`; returns how many.
-    fn pass(&mut self, tolerance: f64, allowed: std::ops::Range<usize>) -> usize {
+    /// Removes knots that do not see each other, change only coefficients in `range` and leave `allowed` ones; returns how many.
+    fn pass(
+        &mut self,
+        tolerance: f64,
+        range: std::ops::Range<usize>,
+        allowed: &impl Fn(&P) -> bool,
+    ) -> usize {
         let (n, m) = (self.n, self.coefficients.len());
         // breaks[i] is the index of the last copy of break i; the last break is the first copy of the right end.
         let breaks: Vec<usize> = (n..=m).filter(|&k| k == m || self.knots[k] < self.knots[k + 1]).collect();
@@ -188,7 +210,8 @@ impl<P: Point> Stretch<P> {
             let multiplicity = last - breaks[place - 1];
             let step = removal_step(n, &self.knots, &self.coefficients, last);
             let affected = step.first..step.first + step.null_vector.len();
-            if step.deviation <= tolerance && allowed.start <= affected.start && affected.end <= allowed.end {
+            let is_within = range.start <= affected.start && affected.end <= range.end;
+            if step.deviation <= tolerance && is_within && step.inner.iter().all(allowed) {
                 candidates.push(Candidate { last, multiplicity, place, step });
             }
         }
@@ -252,7 +275,7 @@ impl<P: Projective> Nurbs<P> {
     /// Removes knots while the certified deviation from this curve is at most `tolerance`.
     ///
     /// A rational curve is worked on in homogeneous coordinates with the tolerance `ε = tol·min w/(1 + max|r| + tol)`, which keeps
-    /// `|P − Q|/v + |r||v − w|/v` below `tol`.
+    /// `|P − Q|/v + |r||v − w|/v` below `tol`. A knot stays whose removal would leave a weight that is not positive.
     ///
     /// # Errors
     ///
@@ -276,7 +299,10 @@ impl<P: Projective> Nurbs<P> {
         let homogeneous = tolerance * least / (1.0 + largest + tolerance);
         let curve = self.mapped(
             |spline| Ok(spline.remove_knots_watched(tolerance, watcher)?.spline),
-            |spline| Ok(spline.remove_knots_watched(homogeneous, watcher)?.spline),
+            |spline| {
+                let is_weighted = |point: &P::Homogeneous| P::project(*point).1 > 0.0;
+                Ok(spline.remove_knots_where(homogeneous, is_weighted, watcher)?.spline)
+            },
         )?;
         let deviation = deviation(self, &curve)?;
         Ok(NurbsKnotReduction { removed: self.points().len() - curve.points().len(), curve, deviation })
