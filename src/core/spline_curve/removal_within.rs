@@ -110,7 +110,7 @@ impl<P: Point> Spline<P> {
                     reason: "the ends of the period came apart".to_owned(),
                 });
             };
-            (spline, bounds) = rotated(&closed, open.bounds)?;
+            (spline, bounds) = rotated(&self.with_own_knots(&closed)?, open.bounds)?;
             idle = if removed > 0 { 0 } else { idle + 1 };
         }
         while spline.space().dimension() <= 4 * n + 4 {
@@ -133,7 +133,23 @@ impl<P: Point> Spline<P> {
             bounds = vec![worst + deviation; next.space().breaks().len() - 1];
             spline = next;
         }
-        back_to_start(&spline, bounds, left)
+        let (spline, bounds) = back_to_start(&spline, bounds, left)?;
+        Ok((self.with_own_knots(&spline)?, bounds))
+    }
+
+    /// `reduced`, all of whose knots are knots of this closed spline up to the rounding of whole periods, with exactly these and with its period.
+    fn with_own_knots(&self, reduced: &Self) -> Result<Self, SplineError> {
+        let Some(period) = self.space().period() else { return Ok(reduced.clone()) };
+        let count = self.space().dimension() as isize;
+        let own: Vec<f64> = (-2 * count..=4 * count).filter_map(|k| self.space().knot(k)).collect();
+        let nearest = |knot: f64| {
+            let above = own.partition_point(|&own| own < knot).clamp(1, own.len() - 1);
+            let [low, high] = [own[above - 1], own[above]];
+            if knot - low < high - knot { low } else { high }
+        };
+        let knots = (0..reduced.space().dimension() as isize).filter_map(|k| reduced.space().knot(k));
+        let space = SplineSpace::periodic(self.degree(), period, knots.map(nearest).collect())?;
+        Self::new(space, reduced.coefficients().to_vec())
     }
 }
 
@@ -359,6 +375,11 @@ mod tests {
             prop_assert!(reduction.removed >= new.len(), "{} of {}", reduction.removed, new.len());
             prop_assert!(reduction.deviation.upper < 1e-8, "{:?}", reduction.deviation);
             prop_assert!(distance(&curve, &reduction.curve) < 1e-8, "off");
+            prop_assert_eq!(reduction.curve.space().period(), curve.space().period(), "the period");
+            let own = refined.space().knots();
+            let (left, right) = curve.space().parameter_interval();
+            let inside = reduction.curve.space().knots().iter().filter(|&&knot| left <= knot && knot < right);
+            prop_assert!(inside.into_iter().all(|knot| own.contains(knot)), "knots to the last digit");
         }
 
         #[test]
@@ -366,6 +387,19 @@ mod tests {
             let reduction = curve.remove_knots(tolerance).unwrap();
             prop_assert!(reduction.deviation.lower <= tolerance, "{:?}", reduction.deviation);
         }
+    }
+
+    #[test]
+    fn a_closed_polygon_is_left_of_a_refined_one() {
+        let space = SplineSpace::periodic(1, 2.0, vec![0.0, 1.0]).unwrap();
+        let points =
+            vec![DVec2::new(-4.7460382006814275, 0.0), DVec2::new(-6.4632088597429265, -3.369807868920291)];
+        let curve = Nurbs::new(space, points, vec![1.1546220298224845, 3.07478389129614]).unwrap();
+        let new: Vec<f64> = [1, 2, 5, 12, 13, 15, 17, 18, 21, 23, 29, 31, 34, 36]
+            .map(|place| 2.0 * (f64::from(place) + 0.37) / 40.0)
+            .to_vec();
+        let reduction = curve.insert_knots(&new).unwrap().remove_knots(1e-9).unwrap();
+        assert_eq!(reduction.removed, new.len(), "{:?}", reduction.curve.space());
     }
 
     #[test]
