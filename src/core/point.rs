@@ -30,7 +30,8 @@ pub trait Point:
 
     /// Whether all coordinates are finite numbers.
     fn is_finite(self) -> bool {
-        (0..Self::DIMENSION).all(|index| self.coordinate(index).is_finite())
+        // Of a number that is not finite the difference is none.
+        self - self == Self::ZERO
     }
 
     /// Euclidean length.

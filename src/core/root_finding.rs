@@ -259,7 +259,8 @@ pub(in crate::core) fn single_zeros<const L: usize>(c: &mut [[f64; L]], k: [usiz
         s[i] = (start / (1.0 - start)).min(1.0);
     }
     let mut ends = ([0.0; L], [1.0; L]);
-    let (mut before, mut done) = ([1.0_f64; L], [false; L]);
+    // The first step alone says nothing about the next one.
+    let (mut before, mut done) = ([0.0; L], [false; L]);
     // Halving alone takes 53 steps to the last digit.
     for _ in 0..60 {
         let (mut value, mut slope) = ([0.0; L], [0.0; L]);
@@ -406,6 +407,45 @@ mod tests {
             let count: usize = bernstein_zeros(&c, 0.0).isolated().iter().map(|zero| zero.multiplicity).sum();
             let changes = strict_sign_changes(&c, 0.0);
             prop_assert!(count <= changes && (changes - count).is_multiple_of(2), "{count} zeros, {changes} changes");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn zeros_side_by_side_are_those_of_each_polynomial_alone(
+            degree in 1_usize..9,
+            sizes in prop::array::uniform4(prop::collection::vec(1e-3..1.0_f64, 10)),
+            parts in prop::array::uniform4(0.0..1.0_f64),
+            signs in prop::array::uniform4(any::<bool>()),
+        ) {
+            let changes = parts.map(|part| 1 + (part * degree as f64) as usize);
+            let coefficient = |i: usize, j: usize| {
+                if (j < changes[i]) == signs[i] { sizes[i][j] } else { -sizes[i][j] }
+            };
+            let mut rows: Vec<[f64; 4]> = (0..=degree).map(|j| std::array::from_fn(|i| coefficient(i, j))).collect();
+            let together = single_zeros(&mut rows, changes);
+            for i in 0..4 {
+                let mut c: Vec<f64> = (0..=degree).map(|j| coefficient(i, j)).collect();
+                prop_assert_eq!(single_sign_change(&c, 1e-4), Some(changes[i]), "{:?}", c);
+                let general = bernstein_zeros(&c, 0.0);
+                let mut scratch = c.clone();
+                let value = value_at(&c, &mut scratch, together[i]);
+                prop_assert!(value.abs() < 1e-14, "{c:?}: {value} at {}", together[i]);
+                prop_assert!((general.isolated()[0].at - together[i]).abs() < 1e-7, "{c:?}: {general:?}");
+                prop_assert_eq!(single_zero(&mut c, changes[i]), together[i], "alone");
+            }
+        }
+
+        #[test]
+        fn a_single_change_of_sign_is_told_if_the_ends_are_certain(c in prop::collection::vec(-1.0..1.0_f64, 1..8)) {
+            let noise = 0.3;
+            let is_single = strict_sign_changes(&c, noise) == 1 && c[0].abs() > noise && c[c.len() - 1].abs() > noise;
+            let found = single_sign_change(&c, noise);
+            prop_assert_eq!(found.is_some(), is_single, "{:?}", c);
+            if let Some(k) = found {
+                let differs = |a: &f64| a.abs() > noise && a * c[0] < 0.0;
+                prop_assert_eq!(c.iter().position(differs), Some(k), "{:?}", c);
+            }
         }
     }
 }

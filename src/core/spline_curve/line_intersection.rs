@@ -373,6 +373,28 @@ mod tests {
     }
 
     #[test]
+    fn a_wave_is_crossed_as_often_with_a_tree_as_without() {
+        let points = (0..40).map(|k| DVec2::new(f64::from(k), if k % 2 == 0 { 1.0 } else { -1.0 })).collect();
+        let space = SplineSpace::new(3, (0..44).map(f64::from).collect()).unwrap();
+        let wave = Nurbs::polynomial(space, points).unwrap();
+        let tree = IntersectionTree::new(&wave).unwrap();
+        for share in -9..=9 {
+            // Its extreme values are ±1/3.
+            let offset = f64::from(share) / 30.0;
+            let [one, other] =
+                [wave.intersect_line(DVec2::Y, offset, 1e-12), tree.intersect_line(DVec2::Y, offset, 1e-12)]
+                    .map(Result::unwrap);
+            assert!((36..=37).contains(&one.len()), "offset {offset}: {one:?}");
+            assert_eq!(one.len(), other.len(), "offset {offset}");
+            for (hit, same) in one.iter().zip(&other) {
+                assert!((hit.parameter - same.parameter).abs() < 1e-12, "{hit:?}, {same:?}");
+                assert!((hit.point.y - offset).abs() < 1e-14, "{hit:?}");
+                assert_eq!(same.meeting, Meeting::Crossing, "{same:?}");
+            }
+        }
+    }
+
+    #[test]
     fn impossible_lines_are_refused() {
         let curve = polygon(&[[0.0, 1.0], [1.0, 0.0], [2.0, 0.0]]);
         let name =
