@@ -30,8 +30,8 @@ pub trait Point:
 
     /// Whether all coordinates are finite numbers.
     fn is_finite(self) -> bool {
-        // Of a number that is not finite the difference is none.
-        self - self == Self::ZERO
+        // Infinity times 0 is not a number.
+        self * 0.0 == Self::ZERO
     }
 
     /// Euclidean length.
