@@ -150,11 +150,6 @@ impl<const D: usize> BoundingBox<D> {
         if enter <= leave { enter } else { f64::INFINITY }
     }
 
-    /// The sum of the sides.
-    fn size(&self) -> f64 {
-        (0..D).map(|axis| self.high[axis] - self.low[axis]).sum()
-    }
-
     fn centre(&self, axis: usize) -> f64 {
         0.5 * self.low[axis] + 0.5 * self.high[axis]
     }
@@ -197,22 +192,17 @@ impl<const D: usize> Node<D> {
         BoundingBox { low: self.low.map(|lanes| lanes[lane]), high: self.high.map(|lanes| lanes[lane]) }
     }
 
-    /// The boxes and what they are of.
-    fn children(&self) -> impl Iterator<Item = (BoundingBox<D>, Link)> + '_ {
-        (0..self.count()).map(|lane| (self.bounds(lane), self.links[lane]))
-    }
-
-    /// Those boxes that are not further than `gap` from `other` in any coordinate.
-    fn near(&self, other: &BoundingBox<D>, gap: f64) -> impl Iterator<Item = (BoundingBox<D>, Link)> {
+    /// Which boxes are not further than `gap` from `other` in any coordinate; empty ones are near nothing.
+    #[inline(always)]
+    fn near(&self, other: &BoundingBox<D>, gap: f64) -> [bool; WIDTH] {
         let mut is_near = [true; WIDTH];
         for axis in 0..D {
             let (low, high) = (other.low[axis] - gap, other.high[axis] + gap);
             for (lane, near) in is_near.iter_mut().enumerate() {
-                *near &= self.low[axis][lane] <= high && self.high[axis][lane] >= low;
+                *near &= (self.low[axis][lane] <= high) & (self.high[axis][lane] >= low);
             }
         }
-        // Empty boxes are near nothing.
-        (0..WIDTH).filter(move |&lane| is_near[lane]).map(|lane| (self.bounds(lane), self.links[lane]))
+        is_near
     }
 
     /// The number of boxes.
@@ -224,8 +214,8 @@ impl<const D: usize> Node<D> {
     /// A number for each box, infinite for lanes without one.
     fn keys(&self, key: impl Fn(&BoundingBox<D>) -> f64) -> Lanes {
         let mut keys = [f64::INFINITY; WIDTH];
-        for (lane, (bounds, _)) in self.children().enumerate() {
-            keys[lane] = key(&bounds);
+        for lane in 0..self.count() {
+            keys[lane] = key(&self.bounds(lane));
         }
         keys
     }
@@ -247,11 +237,6 @@ impl<const D: usize> Node<D> {
 /// The larger number, `b` if one is none; one instruction, unlike `f64::max`.
 fn larger(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
-}
-
-/// The smaller number, `b` if one is none.
-fn smaller(a: f64, b: f64) -> f64 {
-    if a < b { a } else { b }
 }
 
 /// A tree over boxes, which are known by their index in the list it was built from.
@@ -356,15 +341,43 @@ impl<const D: usize> BoundingTree<D> {
 
     /// Visits the items whose boxes are not further than `gap` from `bounds` in any coordinate, in no order.
     pub fn near(&self, bounds: &BoundingBox<D>, gap: f64, mut visit: impl FnMut(usize)) {
-        let key = |other: &BoundingBox<D>| if bounds.is_near(other, gap) { 0.0 } else { 1.0 };
-        self.walk(
-            |node| node.keys(key),
-            1.0,
-            |item, limit| {
-                visit(item);
-                limit
-            },
-        );
+        if !self.is_empty() {
+            self.near_below(0, bounds, gap, &mut visit);
+        }
+    }
+
+    /// Those of the items below a node.
+    fn near_below(&self, node: u32, bounds: &BoundingBox<D>, gap: f64, mut visit: impl FnMut(usize)) {
+        self.each_below(node, |node| node.near(bounds, gap), &mut visit);
+    }
+
+    /// Visits the items below a node in the lanes that `is_wanted`, the first lane first.
+    #[inline(always)]
+    fn each_below(
+        &self,
+        node: u32,
+        is_wanted: impl Fn(&Node<D>) -> [bool; WIDTH],
+        mut visit: impl FnMut(usize),
+    ) {
+        let mut waiting = [0; MAX_WAITING];
+        waiting[0] = node;
+        let mut count = 1;
+        while count > 0 {
+            count -= 1;
+            let node = &self.nodes[waiting[count] as usize];
+            let is_wanted = is_wanted(node);
+            for lane in (0..WIDTH).rev().filter(|&lane| is_wanted[lane]) {
+                match node.links[lane] {
+                    Link::Node(index) => {
+                        waiting[count] = index;
+                        count += 1;
+                    }
+                    // The empty boxes of lanes without an item may reach everywhere.
+                    Link::Item(u32::MAX) => {}
+                    Link::Item(item) => visit(item as usize),
+                }
+            }
+        }
     }
 
     /// Visits the items whose boxes contain `point`, in no order.
@@ -381,31 +394,23 @@ impl<const D: usize> BoundingTree<D> {
 
     /// Visits the items whose boxes have points within `gap` of the hyperplane `normal·x = offset`, where `normal` has length 1, in no order.
     pub fn near_plane(&self, normal: [f64; D], offset: f64, gap: f64, mut visit: impl FnMut(usize)) {
-        let keys = |node: &Node<D>| {
+        if self.is_empty() {
+            return;
+        }
+        let is_near = |node: &Node<D>| {
             let (mut low, mut high) = ([-offset; WIDTH], [-offset; WIDTH]);
             for axis in 0..D {
                 let factor = normal[axis];
                 let (from, to) = (&node.low[axis], &node.high[axis]);
+                let (from, to) = if factor < 0.0 { (to, from) } else { (from, to) };
                 for lane in 0..WIDTH {
-                    let (a, b) = (factor * from[lane], factor * to[lane]);
-                    low[lane] += smaller(a, b);
-                    high[lane] += larger(a, b);
+                    low[lane] += factor * from[lane];
+                    high[lane] += factor * to[lane];
                 }
             }
-            let mut keys = [1.0; WIDTH];
-            for (lane, key) in keys.iter_mut().enumerate() {
-                if low[lane] <= gap && high[lane] >= -gap {
-                    *key = 0.0;
-                }
-            }
-            // The empty boxes of lanes without an item reach everywhere.
-            keys.iter_mut().skip(node.count()).for_each(|key| *key = 1.0);
-            keys
+            std::array::from_fn(|lane| (low[lane] <= gap) & (high[lane] >= -gap))
         };
-        self.walk(keys, 1.0, |item, limit| {
-            visit(item);
-            limit
-        });
+        self.each_below(0, is_near, &mut visit);
     }
 
     /// All items whose boxes have a key below the limit, which `visit` may lower.
@@ -451,25 +456,30 @@ impl<const D: usize> BoundingTree<D> {
 
     /// Visits every pair of an item of this tree and one of `other` whose boxes are not further apart than `gap` in any coordinate, in no order.
     pub fn pairs(&self, other: &Self, gap: f64, mut visit: impl FnMut(usize, usize)) {
-        let (Some(mine), Some(theirs)) = (self.bounds, other.bounds) else { return };
-        if !mine.is_near(&theirs, gap) {
+        if self.is_empty() || other.is_empty() {
             return;
         }
         let mut waiting = Vec::with_capacity(2 * MAX_WAITING);
-        waiting.push(((mine, Link::Node(0)), (theirs, Link::Node(0))));
-        while let Some((a, b)) = waiting.pop() {
-            // The longer box is opened, if it can be.
-            match (a.1, b.1) {
-                (Link::Item(a), Link::Item(b)) => visit(a as usize, b as usize),
-                (Link::Node(i), other) if matches!(other, Link::Item(_)) || a.0.size() >= b.0.size() => {
-                    let near = self.nodes[i as usize].near(&b.0, gap);
-                    waiting.extend(near.map(|child| (child, b)));
+        waiting.push([0, 0]);
+        while let Some([mine, theirs]) = waiting.pop() {
+            let (mine, theirs) = (&self.nodes[mine as usize], &other.nodes[theirs as usize]);
+            for lane in 0..mine.count() {
+                let bounds = mine.bounds(lane);
+                for (facing, is_near) in theirs.near(&bounds, gap).into_iter().enumerate() {
+                    if !is_near {
+                        continue;
+                    }
+                    match (mine.links[lane], theirs.links[facing]) {
+                        (Link::Item(a), Link::Item(b)) => visit(a as usize, b as usize),
+                        (Link::Node(a), Link::Node(b)) => waiting.push([a, b]),
+                        (Link::Item(a), Link::Node(b)) => {
+                            other.near_below(b, &bounds, gap, |b| visit(a as usize, b));
+                        }
+                        (Link::Node(a), Link::Item(b)) => {
+                            self.near_below(a, &theirs.bounds(facing), gap, |a| visit(a, b as usize));
+                        }
+                    }
                 }
-                (_, Link::Node(j)) => {
-                    let near = other.nodes[j as usize].near(&a.0, gap);
-                    waiting.extend(near.map(|child| (a, child)));
-                }
-                (Link::Node(_), Link::Item(_)) => {}
             }
         }
     }

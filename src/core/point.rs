@@ -30,7 +30,8 @@ pub trait Point:
 
     /// Whether all coordinates are finite numbers.
     fn is_finite(self) -> bool {
-        (0..Self::DIMENSION).all(|index| self.coordinate(index).is_finite())
+        // Infinity times 0 is not a number.
+        self * 0.0 == Self::ZERO
     }
 
     /// Euclidean length.

@@ -287,67 +287,93 @@ fn bracketed_zero(c: &[f64], scratch: &mut [f64], mut low: f64, mut high: f64) -
     t
 }
 
-/// The zero of a polynomial whose coefficients, overwritten, have one sign before index `k` and not from there on: Newton's method in a bracket, from where the control
-/// polygon is 0.
+/// The zero of a polynomial whose coefficients, overwritten, have one sign before index `k` and not from there on, see [`single_zeros`].
+pub(in crate::core) fn single_zero(c: &mut [f64], k: usize) -> f64 {
+    single_zeros::<1>(c.as_chunks_mut().0, [k])[0]
+}
+
+/// The zeros of `L` polynomials of one degree, `c[j]` being their coefficients number `j`, which are overwritten. Those of polynomial `i` have one sign before index `k[i]`
+/// and not from there on. Newton's method in a bracket, from where the control polygon is 0; the polynomials go side by side, because one alone waits for every operation.
 ///
 /// With `s = t/(1 − t)` the polynomial is `(1 − t)ᴺ Σ C(N,k) cₖ sᵏ`. Over the half of `[0, 1]` where the zero is, counted from the nearer end, `s` is at most 1, and the
 /// sum has no larger rounding errors than de Casteljau's algorithm.
-pub(in crate::core) fn single_zero(c: &mut [f64], k: usize) -> f64 {
+pub(in crate::core) fn single_zeros<const L: usize>(c: &mut [[f64; L]], k: [usize; L]) -> [f64; L] {
     let n = c.len() - 1;
-    let guess = ((k - 1) as f64 + c[k - 1] / (c[k - 1] - c[k])) / n as f64;
-    let mut binomial = 1.0;
-    for (j, c) in c.iter_mut().enumerate() {
-        *c *= binomial;
+    let guess: [f64; L] = std::array::from_fn(|i| {
+        let (before, behind) = (c[k[i] - 1][i], c[k[i]][i]);
+        ((k[i] - 1) as f64 + before / (before - behind)) / n as f64
+    });
+    let (mut binomial, mut sums) = (1.0, [0.0; L]);
+    for (j, row) in c.iter_mut().enumerate() {
+        for i in 0..L {
+            row[i] *= binomial;
+            sums[i] += row[i];
+        }
         binomial *= (n - j) as f64 / (j + 1) as f64;
     }
-    let falls = c[0] > 0.0;
-    let is_right = (c.iter().sum::<f64>() < 0.0) != falls;
-    if is_right {
-        c.reverse();
+    let (mut is_right, mut s) = ([false; L], [0.0; L]);
+    for i in 0..L {
+        let falls = c[0][i] > 0.0;
+        is_right[i] = (sums[i] < 0.0) != falls;
+        // From the nearer end, where it is positive.
+        if is_right[i] {
+            for j in 0..c.len() / 2 {
+                (c[j][i], c[n - j][i]) = (c[n - j][i], c[j][i]);
+            }
+        }
+        let sign = if is_right[i] == falls { -1.0 } else { 1.0 };
+        c.iter_mut().for_each(|row| row[i] *= sign);
+        let start = if is_right[i] { 1.0 - guess[i] } else { guess[i] };
+        s[i] = (start / (1.0 - start)).min(1.0);
     }
-    let start = if is_right { 1.0 - guess } else { guess };
-    let (mut low, mut high) = (0.0, 1.0);
-    let mut s = (start / (1.0 - start)).min(1.0);
-    let mut before = 1.0_f64;
+    let mut ends = ([0.0; L], [1.0; L]);
+    // The first step alone says nothing about the next one.
+    let (mut before, mut done) = ([0.0; L], [false; L]);
     // Halving alone takes 53 steps to the last digit.
     for _ in 0..60 {
-        let (mut value, mut slope) = (0.0, 0.0);
-        for c in c.iter().rev() {
-            slope = slope * s + value;
-            value = value * s + c;
+        let (mut value, mut slope) = ([0.0; L], [0.0; L]);
+        for row in c.iter().rev() {
+            for i in 0..L {
+                slope[i] = slope[i] * s[i] + value[i];
+                value[i] = value[i] * s[i] + row[i];
+            }
         }
-        if value == 0.0 {
+        for i in 0..L {
+            let newton = s[i] - value[i] / slope[i];
+            let is_beyond = value[i] < 0.0;
+            let low = if is_beyond { ends.0[i] } else { s[i] };
+            let high = if is_beyond { s[i] } else { ends.1[i] };
+            let is_inside = ((low < newton) & (newton < high)) | (newton == s[i]) | (value[i] == 0.0);
+            let next = if is_inside { newton } else { 0.5 * (low + high) };
+            let next = if done[i] | (value[i] == 0.0) { s[i] } else { next };
+            let step = (next - s[i]).abs();
+            // Steps of a quadratically convergent sequence shrink like 1, C, C³ …: the next one would be step³/before².
+            let is_last = is_inside & (step * step * step <= 0.5 * f64::EPSILON * before[i] * before[i]);
+            done[i] |= is_last | (step <= 2.0 * f64::EPSILON) | (high - low <= f64::EPSILON);
+            (ends.0[i], ends.1[i], s[i], before[i]) = (low, high, next, step);
+        }
+        if done.iter().fold(true, |all, done| all & done) {
             break;
         }
-        if (value < 0.0) == (is_right != falls) {
-            high = s;
-        } else {
-            low = s;
-        }
-        let newton = s - value / slope;
-        let is_inside = low < newton && newton < high;
-        let next = if is_inside { newton } else { 0.5 * (low + high) };
-        let step = (next - s).abs();
-        s = next;
-        // Steps of a quadratically convergent sequence shrink like 1, C, C³ …: the next one would be step³/before².
-        let is_last = is_inside && step * step * step <= 0.5 * f64::EPSILON * before * before;
-        if is_last || step <= 2.0 * f64::EPSILON || high - low <= f64::EPSILON {
-            break;
-        }
-        before = step;
     }
-    if is_right { 1.0 / (1.0 + s) } else { s / (1.0 + s) }
+    std::array::from_fn(|i| if is_right[i] { 1.0 / (1.0 + s[i]) } else { s[i] / (1.0 + s[i]) })
 }
 
-/// The index at which coefficients above `noise` in modulus have their only change of sign; `None` if there are more or the first or last one is within the noise.
+/// The index at which coefficients above `noise` in modulus have their only change of sign; `None` if there are more, or the first or last one is within the noise, or there
+/// are more than 64.
 pub(in crate::core) fn single_sign_change(c: &[f64], noise: f64) -> Option<usize> {
-    let (first, last) = (*c.first()?, *c.last()?);
-    let differ = |a: f64| (a < 0.0) != (first < 0.0);
-    if first.abs() <= noise || last.abs() <= noise || !differ(last) {
+    if !(1..=64).contains(&c.len()) {
         return None;
     }
-    let k = c.iter().position(|&a| a.abs() > noise && differ(a))?;
-    c[k..].iter().all(|&a| a.abs() <= noise || differ(a)).then_some(k)
+    // One bit each, without a branch.
+    let (mut above, mut below) = (0_u64, 0_u64);
+    for (j, &a) in c.iter().enumerate() {
+        above |= u64::from(a > noise) << j;
+        below |= u64::from(a < -noise) << j;
+    }
+    let (start, end) = if above & 1 == 1 { (above, below) } else { (below, above) };
+    let is_one = start & 1 == 1 && end >> (c.len() - 1) == 1 && start < (end & end.wrapping_neg());
+    is_one.then_some(end.trailing_zeros() as usize)
 }
 
 #[cfg(test)]
@@ -483,6 +509,45 @@ mod tests {
             let count: usize = bernstein_zeros(&c, 0.0).isolated().iter().map(|zero| zero.multiplicity).sum();
             let changes = strict_sign_changes(&c, 0.0);
             prop_assert!(count <= changes && (changes - count).is_multiple_of(2), "{count} zeros, {changes} changes");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn zeros_side_by_side_are_those_of_each_polynomial_alone(
+            degree in 1_usize..9,
+            sizes in prop::array::uniform4(prop::collection::vec(1e-3..1.0_f64, 10)),
+            parts in prop::array::uniform4(0.0..1.0_f64),
+            signs in prop::array::uniform4(any::<bool>()),
+        ) {
+            let changes = parts.map(|part| 1 + (part * degree as f64) as usize);
+            let coefficient = |i: usize, j: usize| {
+                if (j < changes[i]) == signs[i] { sizes[i][j] } else { -sizes[i][j] }
+            };
+            let mut rows: Vec<[f64; 4]> = (0..=degree).map(|j| std::array::from_fn(|i| coefficient(i, j))).collect();
+            let together = single_zeros(&mut rows, changes);
+            for i in 0..4 {
+                let mut c: Vec<f64> = (0..=degree).map(|j| coefficient(i, j)).collect();
+                prop_assert_eq!(single_sign_change(&c, 1e-4), Some(changes[i]), "{:?}", c);
+                let general = bernstein_zeros(&c, 0.0);
+                let mut scratch = c.clone();
+                let value = value_at(&c, &mut scratch, together[i]);
+                prop_assert!(value.abs() < 1e-14, "{c:?}: {value} at {}", together[i]);
+                prop_assert!((general.isolated()[0].at - together[i]).abs() < 1e-7, "{c:?}: {general:?}");
+                prop_assert_eq!(single_zero(&mut c, changes[i]), together[i], "alone");
+            }
+        }
+
+        #[test]
+        fn a_single_change_of_sign_is_told_if_the_ends_are_certain(c in prop::collection::vec(-1.0..1.0_f64, 1..8)) {
+            let noise = 0.3;
+            let is_single = strict_sign_changes(&c, noise) == 1 && c[0].abs() > noise && c[c.len() - 1].abs() > noise;
+            let found = single_sign_change(&c, noise);
+            prop_assert_eq!(found.is_some(), is_single, "{:?}", c);
+            if let Some(k) = found {
+                let differs = |a: &f64| a.abs() > noise && a * c[0] < 0.0;
+                prop_assert_eq!(c.iter().position(differs), Some(k), "{:?}", c);
+            }
         }
     }
 }

@@ -17,8 +17,8 @@ use crate::core::point::Point;
 
 /// Parts of the table for each piece, on average.
 const PARTS_PER_PIECE: usize = 2;
-/// Above so many pieces in one part of the table these are searched by halving.
-const FEW: usize = 8;
+/// So many ends of pieces are compared with every parameter, without a branch; where a part of the table has more, the rest is halved.
+const AHEAD: usize = 4;
 
 /// A spline prepared for many evaluations: over `[a, b]` with middle `o` and half width `h` the piece `Σⱼ qⱼ uʲ` with `u = (x − o)/h` and
 /// `qⱼ = hʲ/j! p⁽ʲ⁾(o)`.
@@ -40,7 +40,7 @@ const FEW: usize = 8;
 #[derive(Clone, Debug, PartialEq)]
 pub struct PowerForm<P> {
     space: SplineSpace,
-    /// Ends of the pieces.
+    /// Ends of the pieces, and behind them `AHEAD` times infinity.
     breaks: Vec<f64>,
     /// Middle and reciprocal half width of each piece.
     frames: Vec<Frame>,
@@ -108,7 +108,7 @@ impl<P: Point> PowerForm<P> {
         let knots = space.evaluation_knots();
         let spans = || (n..space.evaluation_dimension()).filter(|&span| knots[span] < knots[span + 1]);
         let count = spans().count();
-        let mut breaks: Vec<f64> = Vec::with_capacity(count + 1);
+        let mut breaks: Vec<f64> = Vec::with_capacity(count + 1 + AHEAD);
         let mut frames = Vec::with_capacity(count);
         let mut coefficients = vec![P::ZERO; count * (n + 1)];
         for (span, piece) in spans().zip(coefficients.chunks_exact_mut(n + 1)) {
@@ -119,6 +119,7 @@ impl<P: Point> PowerForm<P> {
         }
         breaks.push(space.parameter_interval().1);
         let table = Table::new(&breaks);
+        breaks.resize(count + 1 + AHEAD, f64::INFINITY);
         Self { space: space.clone(), breaks, frames, coefficients, table }
     }
 
@@ -194,10 +195,13 @@ impl<P: Point> PowerForm<P> {
         }
         let mut index = 0;
         let mut ends = (self.breaks[0], self.breaks[1]);
+        let (start, end) = (ends.0, self.breaks[self.frames.len()]);
         for (i, (&given, slot)) in xs.iter().zip(out).enumerate() {
             let mut x = given;
             if !(ends.0 <= x && x < ends.1) {
-                x = self.reduce(x).map_err(|error| at_index(error, i))?;
+                if !(start <= x && x < end) {
+                    x = self.reduce(x).map_err(|error| at_index(error, i))?;
+                }
                 index = self.find(x);
                 ends = (self.breaks[index], self.breaks[index + 1]);
             }
@@ -224,14 +228,15 @@ impl<P: Point> PowerForm<P> {
     #[inline(always)]
     fn find(&self, x: f64) -> usize {
         let part = self.table.part(x);
-        let (mut low, high) = (self.table.before[part] as usize, self.table.before[part + 1] as usize);
-        if high - low > FEW {
-            return low + self.breaks[low + 1..=high].partition_point(|&start| start <= x);
+        let (low, high) = (self.table.before[part] as usize, self.table.before[part + 1] as usize);
+        let ahead: &[f64; AHEAD] =
+            self.breaks[low + 1..].first_chunk().expect("infinities follow the last end");
+        let passed: usize = ahead.iter().map(|&start| usize::from(start <= x)).sum();
+        if passed == AHEAD && low + AHEAD < high {
+            let from = low + AHEAD;
+            return from + self.breaks[from + 1..=high].partition_point(|&start| start <= x);
         }
-        while low < high && self.breaks[low + 1] <= x {
-            low += 1;
-        }
-        low
+        (low + passed).min(high)
     }
 }
 

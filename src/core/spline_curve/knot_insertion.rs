@@ -18,6 +18,9 @@ use crate::core::point::Point;
 use crate::core::rational_bezier::Projective;
 use crate::core::spline_curve::Nurbs;
 
+/// So many old knots are looked at together.
+const AHEAD: usize = 4;
+
 impl<P: Point> Spline<P> {
     /// The same spline with one more copy of the knot `at`; a periodic space reduces `at` into its period first.
     ///
@@ -40,12 +43,7 @@ impl<P: Point> Spline<P> {
     pub fn insert_knots(&self, new: &[f64]) -> Result<Self, SplineError> {
         let space = self.space();
         let (left, right) = space.parameter_interval();
-        let mut sorted = Vec::with_capacity(new.len());
-        for &at in new {
-            let reduced = space.reduce(at)?;
-            sorted.push(if space.is_periodic() && reduced >= right { left } else { reduced });
-        }
-        sorted.sort_by(f64::total_cmp);
+        let sorted = sorted_in(space, new)?;
         if sorted.is_empty() {
             return Ok(self.clone());
         }
@@ -91,13 +89,13 @@ impl<P: Point> Spline<P> {
         let coefficients: Vec<P> =
             (first..last - n as isize).map(|k| self.coefficients()[k.rem_euclid(count) as usize]).collect();
         let end = space.knot(count + n as isize + 1).unwrap_or(f64::INFINITY);
-        let copies = (0..)
+        let copies: Vec<f64> = (0..)
             .map(|turn| period * f64::from(turn))
             .take_while(|shift| sorted[0] + shift < end)
             .flat_map(|shift| sorted.iter().map(move |s| s + shift))
-            .filter(|&s| s < end);
-        let additional = 2 * sorted.len() + 2 * n;
-        let (knots, coefficients) = insert_sorted(n, &knots, &coefficients, copies, additional);
+            .filter(|&s| s < end)
+            .collect();
+        let (knots, coefficients) = insert_sorted(n, &knots, &coefficients, &copies);
         let start = first.unsigned_abs();
         let range = start..start + space.dimension() + sorted.len();
         let space = SplineSpace::periodic(n, period, knots[range.clone()].to_vec())?;
@@ -157,8 +155,7 @@ pub(super) fn insert_open<P: Point>(
     sorted: &[f64],
 ) -> (Vec<f64>, Vec<P>) {
     let (left, right) = (knots[degree], knots[coefficients.len()]);
-    let new = sorted.iter().copied();
-    let (mut knots, mut coefficients) = insert_sorted(degree, knots, coefficients, new, sorted.len());
+    let (mut knots, mut coefficients) = insert_sorted(degree, knots, coefficients, sorted);
     let at_left = sorted.iter().take_while(|&&s| s <= left).count();
     let at_right = sorted.iter().rev().take_while(|&&s| s >= right).count();
     knots.truncate(knots.len() - at_right);
@@ -170,78 +167,93 @@ pub(super) fn insert_open<P: Point>(
     (knots, coefficients)
 }
 
-/// Boehm's rule for increasing new knots, about `count` of them, in one pass from left to right.
+/// Boehm's rule for increasing new knots, in one pass from left to right.
 ///
 /// `knots[k]` starts the support of `coefficients[k]`; every new knot lies in `[knots[degree], knots[coefficients.len()]]`.
 fn insert_sorted<P: Point>(
     degree: usize,
     knots: &[f64],
     coefficients: &[P],
-    new: impl Iterator<Item = f64>,
-    count: usize,
+    new: &[f64],
 ) -> (Vec<f64>, Vec<P>) {
     // With the degree a constant, the loop over the new coefficients is unrolled.
     match degree {
-        1 => insertion_pass(1, knots, coefficients, new, count),
-        2 => insertion_pass(2, knots, coefficients, new, count),
-        3 => insertion_pass(3, knots, coefficients, new, count),
-        4 => insertion_pass(4, knots, coefficients, new, count),
-        5 => insertion_pass(5, knots, coefficients, new, count),
-        _ => insertion_pass(degree, knots, coefficients, new, count),
+        1 => insertion_pass(1, knots, coefficients, new),
+        2 => insertion_pass(2, knots, coefficients, new),
+        3 => insertion_pass(3, knots, coefficients, new),
+        4 => insertion_pass(4, knots, coefficients, new),
+        5 => insertion_pass(5, knots, coefficients, new),
+        _ => insertion_pass(degree, knots, coefficients, new),
     }
 }
 
+/// The same in place: old knots and coefficients wait at the end of the new lists, with the same indices in both.
+///
+/// Behind the right end of D, where there are fewer coefficients than knots, zeros and infinity stand for what is missing; γ is 0 there.
 #[inline(always)]
-fn insertion_pass<P: Point>(
-    n: usize,
-    knots: &[f64],
-    coefficients: &[P],
-    new: impl Iterator<Item = f64>,
-    count: usize,
-) -> (Vec<f64>, Vec<P>) {
-    let mut done_knots: Vec<f64> = Vec::with_capacity(knots.len() + count);
-    let mut done: Vec<P> = Vec::with_capacity(coefficients.len() + count);
-    let mut next = 0;
-    for s in new {
-        // One by one: copying short runs would cost a call each.
-        while let Some(&knot) = knots.get(next)
-            && knot <= s
-        {
-            done_knots.push(knot);
-            done.extend(coefficients.get(next));
-            next += 1;
+fn insertion_pass<P: Point>(n: usize, knots: &[f64], coefficients: &[P], new: &[f64]) -> (Vec<f64>, Vec<P>) {
+    let wait = new.len() + AHEAD;
+    let len = wait + knots.len() + n.max(AHEAD);
+    let (mut done_knots, mut done) = (Vec::with_capacity(len), Vec::with_capacity(len));
+    done_knots.resize(wait, 0.0);
+    done_knots.extend_from_slice(knots);
+    done_knots.resize(len, f64::INFINITY);
+    done.resize(wait, P::ZERO);
+    done.extend_from_slice(coefficients);
+    done.resize(len, P::ZERO);
+    let mut place = 0;
+    for (j, &s) in new.iter().enumerate() {
+        // Old knots up to s and their coefficients: so many at once, all compared, because the processor cannot guess how many there are.
+        let ahead = wait - j;
+        loop {
+            let old = place + ahead..place + ahead + AHEAD;
+            let passed: usize = done_knots[old.clone()].iter().map(|&knot| usize::from(knot <= s)).sum();
+            done_knots.copy_within(old.clone(), place);
+            done.copy_within(old, place);
+            place += passed;
+            if passed < AHEAD {
+                break;
+            }
         }
         // The n knots up to s and the n knots behind it; the coefficients in between change. At copies of s itself γ is 0,
-        // which moves a coefficient up unchanged. Behind the right end of D there are fewer coefficients.
-        let first = done_knots.len() - n;
-        done.extend(done.last().copied());
-        let local = &mut done[first - 1..];
-        let changed = n.min(local.len().saturating_sub(2));
-        if changed == n {
-            // The same loop with lengths that are known.
-            let (before, behind) = (&done_knots[first..first + n], &knots[next..next + n]);
-            cut_corners(n, s, before, behind, &mut local[..n + 1]);
-        } else {
-            cut_corners(changed, s, &done_knots[first..], &knots[next..], local);
+        // which moves a coefficient up unchanged.
+        let (before, behind) = (&done_knots[place - n..place], &done_knots[place + ahead..][..n]);
+        let local = &mut done[place - n - 1..=place];
+        local[n + 1] = local[n];
+        for i in (0..n).rev() {
+            let gamma = (s - before[i]) / (behind[i] - before[i]);
+            local[i + 1] = local[i].mix(local[i + 1], gamma);
         }
-        done_knots.push(s);
+        done_knots[place] = s;
+        place += 1;
     }
-    done_knots.extend_from_slice(&knots[next..]);
-    done.extend_from_slice(coefficients.get(next..).unwrap_or_default());
+    done_knots.copy_within(place + AHEAD.., place);
+    done_knots.truncate(knots.len() + new.len());
+    done.copy_within(place + AHEAD.., place);
+    done.truncate(coefficients.len() + new.len());
     (done_knots, done)
 }
 
-/// `local[i + 1]` becomes the new point on the leg that ends there, for `count` legs.
-#[inline(always)]
-fn cut_corners<P: Point>(count: usize, s: f64, before: &[f64], behind: &[f64], local: &mut [P]) {
-    for i in (0..count).rev() {
-        let gamma = (s - before[i]) / (behind[i] - before[i]);
-        local[i + 1] = local[i].mix(local[i + 1], gamma);
+/// The new knots in increasing order, in the period if there is one.
+fn sorted_in(space: &SplineSpace, new: &[f64]) -> Result<Vec<f64>, SplineError> {
+    let (left, right) = space.parameter_interval();
+    // Mostly they are what they should be; without an early exit that is seen in vector registers.
+    let mut sorted = if new.iter().fold(true, |inside, &at| inside & (left <= at) & (at < right)) {
+        new.to_vec()
+    } else {
+        let in_period = |at: f64| if space.is_periodic() && at >= right { left } else { at };
+        new.iter().map(|&at| space.reduce(at).map(in_period)).collect::<Result<_, _>>()?
+    };
+    if !sorted.windows(2).fold(true, |sorted, pair| sorted & (pair[0] <= pair[1])) {
+        sorted.sort_by(f64::total_cmp);
     }
+    Ok(sorted)
 }
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests stop at the first surprise")]
+
     use super::*;
     use crate::core::bspline::Side;
     use crate::core::spline_curve::samples::{any_curve, any_spline, distance};
@@ -281,6 +293,31 @@ mod tests {
             prop_assert_eq!(stepwise.space(), refined.space(), "one after the other");
             for (a, b) in stepwise.points().iter().zip(refined.points()) {
                 prop_assert!(a.distance(*b) < 1e-11, "one after the other: {a} and {b}");
+            }
+        }
+
+        #[test]
+        fn many_knots_in_long_splines_keep_the_values(
+            degree in 1_usize..7, gaps in prop::collection::vec(0.1..2.0_f64, 20..60), parts in prop::collection::vec(0.0..=1.0_f64, 1..80),
+        ) {
+            let mut at = 0.0;
+            let knots: Vec<f64> = gaps.iter().map(|gap| { at += gap; at }).collect();
+            let space = SplineSpace::new(degree, knots.clone()).unwrap();
+            let points = (0..space.dimension()).map(|k| DVec2::new((1.7 * k as f64).sin(), (2.9 * k as f64).cos()));
+            let spline = Spline::new(space.clone(), points.collect()).unwrap();
+            let (left, right) = space.parameter_interval();
+            // Squares crowd at the left end, so that some intervals get many knots and others none.
+            let new: Vec<f64> = parts.iter().map(|part| left.mix(right, part * part).clamp(left, right)).collect();
+            prop_assume!(degree > 1 || new.iter().all(|s| left < *s && *s < right));
+            let refined = spline.insert_knots(&new).unwrap();
+            let mut all = [knots, new.clone()].concat();
+            all.sort_by(f64::total_cmp);
+            let inner = |knots: &[f64]| knots.iter().copied().filter(|s| left < *s && *s < right).collect::<Vec<_>>();
+            prop_assert_eq!(inner(refined.space().knots()), inner(&all), "the union of the knots");
+            for i in 0..=100 {
+                let t = left.mix(right, f64::from(i) / 100.0);
+                let error = spline.evaluate(t).unwrap().distance(refined.evaluate(t).unwrap());
+                prop_assert!(error < 1e-12, "t = {t}: off by {error}");
             }
         }
 

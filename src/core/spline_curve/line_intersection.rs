@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use crate::core::bspline::{MAX_DEGREE, SplineError};
 use crate::core::point::Point as _;
-use crate::core::root_finding::{Zeros, bernstein_zeros, single_sign_change, single_zero};
+use crate::core::root_finding::{Zeros, bernstein_zeros, single_sign_change, single_zeros};
 use crate::core::spline_curve::curve_intersection::check_tolerance;
 use crate::core::spline_curve::local_piece::LocalPiece;
 use crate::core::spline_curve::{IntersectionTree, Meeting, Nurbs};
@@ -16,6 +16,8 @@ use crate::core::spline_curve::{IntersectionTree, Meeting, Nurbs};
 const SAME: f64 = 1e-9;
 /// Rounding errors of heights over a line, in units of the size of a piece.
 const NOISE: f64 = 64.0 * f64::EPSILON;
+/// Single crossings that are computed side by side.
+const LANES: usize = 4;
 
 /// A place where a curve meets a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,8 +94,21 @@ struct Line {
     tolerance: f64,
 }
 
-/// A meeting, and whether it is so near to an end of its piece that a neighbour may know it too.
-type Found = (LineIntersection, bool);
+/// What a line and pieces of a curve have in common.
+#[derive(Default)]
+struct Found {
+    hits: Vec<LineIntersection>,
+    /// Whether one of them is so near to an end of its piece that a neighbour may know it too.
+    any_at_joint: bool,
+}
+
+/// Pieces that cross the line once: the Bernstein coefficients of their heights, where their only sign change is, and the places of their hits in the list.
+struct Crossings<'a> {
+    heights: [[f64; LANES]; MAX_DEGREE + 1],
+    changes: [usize; LANES],
+    places: [(usize, &'a LocalPiece<DVec2>); LANES],
+    count: usize,
+}
 
 impl Line {
     fn new(normal: DVec2, offset: f64, tolerance: f64) -> Result<Self, SplineError> {
@@ -110,84 +125,111 @@ impl Line {
     }
 
     /// What the line has in common with each piece, left to right; parameters closer than `same` are one.
-    fn meetings<'a>(&self, same: f64, pieces: impl Iterator<Item = &'a LocalPiece<DVec2>>) -> Vec<Found> {
+    fn meetings<'a>(&self, same: f64, pieces: impl Iterator<Item = &'a LocalPiece<DVec2>>) -> Found {
         let tolerance = self.tolerance;
-        let mut found: Vec<Found> = Vec::with_capacity(16);
+        let mut found = Found { hits: Vec::with_capacity(12), any_at_joint: false };
+        let mut waiting: Option<Crossings<'a>> = None;
         let mut buffer = [0.0; MAX_DEGREE + 1];
         for piece in pieces {
             let values = &mut buffer[..=piece.degree()];
-            // In units of the largest weight, so that values near 0 are lengths no larger than the distance.
-            let (scale, height) =
-                (piece.largest_weight().recip(), self.normal.dot(piece.origin) - self.offset);
-            for (j, value) in values.iter_mut().enumerate() {
-                let weight = piece.weights.get(j).copied().unwrap_or(1.0);
-                *value = (self.normal.dot(piece.numerators[j]) + height * weight) * scale;
+            self.heights(piece, values);
+            if let Some(k) = single_sign_change(values, tolerance.max(NOISE * piece.extent)) {
+                let crossings = waiting.get_or_insert_with(|| Crossings::none(piece));
+                crossings.add(values, k, (found.hits.len(), piece));
+                // Its place; the numbers follow.
+                let (parameter, point) = (piece.interval.0, piece.origin);
+                found.hits.push(LineIntersection { parameter, point, meeting: Meeting::Crossing });
+                if crossings.count == LANES {
+                    crossings.settle(same, &mut found);
+                }
+                continue;
             }
             if values.iter().all(|&value| value > tolerance) || values.iter().all(|&value| value < -tolerance)
             {
                 continue;
             }
             let (a, b) = piece.interval;
-            let meet = |at: f64, meeting: Meeting| {
-                let point = piece.origin + piece.offset_at(at);
-                let is_at_joint = at.min(1.0 - at) * (b - a) <= 2.0 * same;
-                (LineIntersection { parameter: a.mix(b, at), point, meeting }, is_at_joint)
-            };
-            if let Some(k) = single_sign_change(values, tolerance.max(NOISE * piece.extent)) {
-                found.push(meet(single_zero(values, k), Meeting::Crossing));
-                continue;
-            }
             match bernstein_zeros(values, tolerance) {
-                Zeros::Everywhere => match found.last_mut().map(|last| &mut last.0.meeting) {
+                Zeros::Everywhere => match found.hits.last_mut().map(|last| &mut last.meeting) {
                     Some(Meeting::Overlap { first, second }) if first[1] >= a => {
                         (first[1], second[1]) = (b, b);
                     }
-                    _ => found.push(meet(0.0, Meeting::Overlap { first: [a, b], second: [a, b] })),
+                    _ => {
+                        let part = Meeting::Overlap { first: [a, b], second: [a, b] };
+                        let hit = found.hit(piece, 0.0, part, same);
+                        found.hits.push(hit);
+                    }
                 },
-                Zeros::Isolated(zeros) => found.extend(zeros.iter().map(|zero| {
-                    let is_odd = zero.multiplicity % 2 == 1;
-                    meet(zero.at, if is_odd { Meeting::Crossing } else { Meeting::Tangent })
-                })),
+                Zeros::Isolated(zeros) => {
+                    for zero in zeros {
+                        let is_odd = zero.multiplicity % 2 == 1;
+                        let meeting = if is_odd { Meeting::Crossing } else { Meeting::Tangent };
+                        let hit = found.hit(piece, zero.at, meeting, same);
+                        found.hits.push(hit);
+                    }
+                }
             }
+        }
+        if let Some(crossings) = &mut waiting {
+            crossings.settle(same, &mut found);
         }
         found
     }
 
+    /// The heights of a piece over the line times its weight function, in units of the largest weight, so that values near 0 are lengths no larger than the distance.
+    fn heights(&self, piece: &LocalPiece<DVec2>, values: &mut [f64]) {
+        let height = self.normal.dot(piece.origin) - self.offset;
+        for (value, &numerator) in values.iter_mut().zip(&piece.numerators) {
+            *value = self.normal.dot(numerator);
+        }
+        if piece.weights.is_empty() {
+            values.iter_mut().for_each(|value| *value += height);
+        } else {
+            let scale = piece.largest_weight().recip();
+            for (value, &weight) in values.iter_mut().zip(&piece.weights) {
+                *value = (*value + height * weight) * scale;
+            }
+        }
+    }
+
     /// Each meeting once; what it is at a knot is decided by both sides.
-    fn settled(&self, curve: &Nurbs<DVec2>, mut found: Vec<Found>) -> Vec<LineIntersection> {
+    fn settled(&self, curve: &Nurbs<DVec2>, found: Found) -> Vec<LineIntersection> {
         let (start, end) = curve.space().parameter_interval();
         let (same, closed) = (same(curve), curve.space().is_periodic());
+        let Found { mut hits, any_at_joint } = found;
         let part = |hit: &LineIntersection| match hit.meeting {
             Meeting::Overlap { first, .. } => Some(first),
             _ => None,
         };
-        let parts: Vec<[f64; 2]> = found.iter().filter_map(|(hit, _)| part(hit)).collect();
         let is_part = |hit: &LineIntersection| part(hit).is_some();
-        found.retain(|(hit, _)| {
-            let in_part =
-                |part: &[f64; 2]| part[0] - same <= hit.parameter && hit.parameter <= part[1] + same;
-            is_part(hit) || !parts.iter().any(in_part)
-        });
-        found.dedup_by(|(next, _), (kept, _)| {
+        let parts: Vec<[f64; 2]> = hits.iter().filter_map(part).collect();
+        if !parts.is_empty() {
+            hits.retain(|hit| {
+                let in_part =
+                    |part: &[f64; 2]| part[0] - same <= hit.parameter && hit.parameter <= part[1] + same;
+                is_part(hit) || !parts.iter().any(in_part)
+            });
+        }
+        hits.dedup_by(|next, kept| {
             !is_part(next) && !is_part(kept) && next.parameter - kept.parameter <= same
         });
-        if closed && found.len() > 1 {
-            let (first, last) = (found[0].0, found[found.len() - 1].0);
+        if !any_at_joint {
+            return hits;
+        }
+        if closed && hits.len() > 1 {
+            let (first, last) = (hits[0], hits[hits.len() - 1]);
             let seam = first.parameter - start <= same && end - last.parameter <= same;
             if seam && !is_part(&first) && !is_part(&last) {
-                found.pop();
+                hits.pop();
             }
         }
-        let mut breaks = Vec::new();
+        let breaks = curve.space().breaks();
         let side = |t: f64| curve.evaluate(t).map_or(0.0, |point| self.normal.dot(point) - self.offset);
-        for (hit, _) in found.iter_mut().filter(|(hit, is_at_joint)| *is_at_joint && !is_part(hit)) {
+        for hit in hits.iter_mut().filter(|hit| !is_part(hit)) {
             let t = hit.parameter;
             if !closed && (t - start <= same || end - t <= same) {
                 hit.meeting = Meeting::EndPoint;
                 continue;
-            }
-            if breaks.is_empty() {
-                breaks = curve.space().breaks();
             }
             if !breaks.iter().any(|knot| (t - knot).abs() <= same) {
                 continue;
@@ -205,7 +247,55 @@ impl Line {
                 _ => Meeting::Crossing,
             };
         }
-        found.into_iter().map(|(hit, _)| hit).collect()
+        hits
+    }
+}
+
+impl Found {
+    /// What is at `at` in `[0, 1]` of a piece.
+    fn hit(&mut self, piece: &LocalPiece<DVec2>, at: f64, meeting: Meeting, same: f64) -> LineIntersection {
+        let (a, b) = piece.interval;
+        self.any_at_joint |= at.min(1.0 - at) * (b - a) <= 2.0 * same;
+        LineIntersection { parameter: a.mix(b, at), point: piece.origin + piece.offset_at(at), meeting }
+    }
+}
+
+impl<'a> Crossings<'a> {
+    /// With `any` piece where there is none.
+    fn none(any: &'a LocalPiece<DVec2>) -> Self {
+        Self {
+            heights: [[0.0; LANES]; MAX_DEGREE + 1],
+            changes: [1; LANES],
+            places: [(0, any); LANES],
+            count: 0,
+        }
+    }
+
+    fn add(&mut self, values: &[f64], change: usize, place: (usize, &'a LocalPiece<DVec2>)) {
+        for (row, &value) in self.heights.iter_mut().zip(values) {
+            row[self.count] = value;
+        }
+        self.changes[self.count] = change;
+        self.places[self.count] = place;
+        self.count += 1;
+    }
+
+    /// Gives the hits their numbers.
+    fn settle(&mut self, same: f64, found: &mut Found) {
+        if self.count == 0 {
+            return;
+        }
+        let heights = &mut self.heights[..=self.places[0].1.degree()];
+        // Lanes without a piece repeat the first one.
+        for lane in self.count..LANES {
+            heights.iter_mut().for_each(|row| row[lane] = row[0]);
+            self.changes[lane] = self.changes[0];
+        }
+        let zeros = single_zeros(heights, self.changes);
+        for (&(place, piece), &at) in self.places.iter().zip(&zeros).take(self.count) {
+            found.hits[place] = found.hit(piece, at, Meeting::Crossing, same);
+        }
+        self.count = 0;
     }
 }
 
@@ -280,6 +370,28 @@ mod tests {
         let ends = [1.0, 3.0];
         assert_eq!(found.len(), 1, "{found:?}");
         assert_eq!(found[0].meeting, Meeting::Overlap { first: ends, second: ends }, "{found:?}");
+    }
+
+    #[test]
+    fn a_wave_is_crossed_as_often_with_a_tree_as_without() {
+        let points = (0..40).map(|k| DVec2::new(f64::from(k), if k % 2 == 0 { 1.0 } else { -1.0 })).collect();
+        let space = SplineSpace::new(3, (0..44).map(f64::from).collect()).unwrap();
+        let wave = Nurbs::polynomial(space, points).unwrap();
+        let tree = IntersectionTree::new(&wave).unwrap();
+        for share in -9..=9 {
+            // Its extreme values are ±1/3.
+            let offset = f64::from(share) / 30.0;
+            let [one, other] =
+                [wave.intersect_line(DVec2::Y, offset, 1e-12), tree.intersect_line(DVec2::Y, offset, 1e-12)]
+                    .map(Result::unwrap);
+            assert!((36..=37).contains(&one.len()), "offset {offset}: {one:?}");
+            assert_eq!(one.len(), other.len(), "offset {offset}");
+            for (hit, same) in one.iter().zip(&other) {
+                assert!((hit.parameter - same.parameter).abs() < 1e-12, "{hit:?}, {same:?}");
+                assert!((hit.point.y - offset).abs() < 1e-14, "{hit:?}");
+                assert_eq!(same.meeting, Meeting::Crossing, "{same:?}");
+            }
+        }
     }
 
     #[test]

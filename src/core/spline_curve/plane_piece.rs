@@ -5,6 +5,8 @@
 //! its chord; another one, a graph over its chord, by two segments through the point where it passes 0. Newton's method from the crossing of the chords finds
 //! the place. Course: section 2.6; beyond, section B.6.
 
+use std::f64::consts::PI;
+
 use glam::DVec2;
 
 use crate::core::bounding_tree::BoundingBox;
@@ -36,7 +38,7 @@ pub(super) struct PlanePiece {
     pub(super) curve: RationalBezier<DVec2>,
     pub(super) local: LocalPiece<DVec2>,
     pub(super) bounds: BoundingBox<2>,
-    /// Middle and half opening of the cone of directions.
+    /// Middle, between 0 and π, and half opening of the cone of directions, one and its opposite being the same.
     cone: Option<(f64, f64)>,
     /// Half the chord, seen from the origin of the piece.
     half: DVec2,
@@ -53,7 +55,8 @@ impl PlanePiece {
         let bounds = BoundingBox::of_points(points.iter().map(DVec2::to_array)).map_err(|_| overflow)?;
         let half = 0.5 * (points[points.len() - 1] - points[0]);
         let strip = half.perp().try_normalize().map(|normal| (normal, range(points, normal, local.origin)));
-        Ok(Self { cone: curve.tangent_cone(), local, bounds, half, strip, curve })
+        let cone = curve.tangent_cone().map(|(middle, opening)| (middle.rem_euclid(PI), opening));
+        Ok(Self { cone, local, bounds, half, strip, curve })
     }
 
     /// Both parts of a division near the middle.
@@ -78,8 +81,8 @@ impl PlanePiece {
     /// Whether no tangent of `self` is parallel to one of `other`.
     pub(super) fn directions_differ(&self, other: &Self) -> bool {
         let (Some((a, p)), Some((b, q))) = (self.cone, other.cone) else { return false };
-        let turn = (a - b).rem_euclid(std::f64::consts::PI);
-        turn.min(std::f64::consts::PI - turn) > p + q + APART
+        let turn = (a - b).abs();
+        turn.min(PI - turn) > p + q + APART
     }
 
     /// Whether our control points may have the place `x` among their convex combinations, up to `gap`.
