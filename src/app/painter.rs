@@ -483,7 +483,7 @@ mod tests {
             });
             assert!(near, "{point} has been cut off");
         }
-        assert!(thin.contains(&DVec2::new(300.0, 0.3 * 499.0)), "the turn is kept");
+        assert!(thin.contains(&DVec2::new(300.0, 150.0)), "the turn is kept");
     }
 
     #[test]

@@ -138,7 +138,7 @@ impl Canvas {
 
     /// What is not drawn of the selected curve because too much of it is in view.
     pub(super) fn left_out(lab: &Lab) -> Option<String> {
-        left_out(lab.selected()?.as_ref(), &viewport(lab))
+        left_out(lab.history.document(), lab.selected()?.as_ref(), &viewport(lab))
     }
 
     /// Brings all objects into the canvas.
@@ -249,11 +249,11 @@ impl Canvas {
         }
         if let Some(mut gesture) = self.gesture.take() {
             if down {
-                gesture.drag(pointer, lab, viewport, rect, keys);
+                gesture.drag(pointer, lab, &mut self.trees, (viewport, rect), keys);
                 self.gesture = Some(gesture);
             } else {
                 if released {
-                    gesture.drag(pointer, lab, viewport, rect, keys);
+                    gesture.drag(pointer, lab, &mut self.trees, (viewport, rect), keys);
                 }
                 gesture.release(lab, keys);
             }

@@ -17,6 +17,9 @@ use crate::figure::picture::Viewport;
 /// Above this many points the single handles are not announced to assistive programs.
 const ANNOUNCED: usize = 200;
 
+/// Above this many points of all curves together only those of the selected curve are announced.
+const ANNOUNCED_IN_ALL: usize = 600;
+
 /// The curve without the point `index` at the parameter where that point has most influence: the place it would pull
 /// from, and what the weight bead needs: `r = (1 − s)·base + s·c` with `s = w b/(rest + w b)`.
 struct Pull {
@@ -286,9 +289,13 @@ pub(super) fn announce(named: Vec<(String, DVec2)>, viewport: &Viewport, rect: R
 /// The handles of the visible curves: accessible name and place in the world.
 pub(super) fn named(lab: &Lab, viewport: &Viewport) -> Vec<(String, DVec2)> {
     let mut named = Vec::new();
-    for object in lab.history.document().objects().iter().filter(|object| object.visible) {
+    let objects = lab.history.document().objects();
+    let visible = || objects.iter().filter(|object| object.visible);
+    let in_all: usize = visible().filter_map(|object| object.curve()).map(|curve| curve.points().len()).sum();
+    for object in visible() {
         let Some(curve) = object.curve() else { continue };
-        if curve.points().len() <= ANNOUNCED {
+        let is_one_of_few = in_all <= ANNOUNCED_IN_ALL || lab.selection.object == Some(object.id);
+        if curve.points().len() <= ANNOUNCED && is_one_of_few {
             let points = curve.points().iter().enumerate();
             named
                 .extend(points.map(|(index, &at)| (format!("Control point {index} of {}", object.name), at)));

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use crate::core::spline_curve::Nurbs;
-use crate::document::{CurveDisplay, Object, PointLabels};
+use crate::document::{CurveDisplay, Document, Object, PointLabels};
 use crate::figure::picture::Viewport;
 
 /// With more control points in view they are dots, and knots are not drawn.
@@ -22,20 +22,27 @@ const MARGIN: f64 = 0.1;
 pub(super) struct Crowd {
     low: DVec2,
     high: DVec2,
-    /// Control points in view.
+    /// Control points in view, of this curve and all others of the picture.
     points: usize,
 }
 
 impl Crowd {
-    /// What is seen of `curve` through `viewport`; of a curve with few control points everything.
-    pub(super) fn of(curve: &Nurbs<DVec2>, viewport: &Viewport) -> Self {
+    /// What is seen of the visible curves of `document` through `viewport`.
+    pub(super) fn of(document: &Document, viewport: &Viewport) -> Self {
         let half = viewport.size * ((0.5 + MARGIN) / viewport.scale);
         let mut crowd = Self { low: viewport.center - half, high: viewport.center + half, points: 0 };
-        if curve.points().len() <= FEW_POINTS {
-            (crowd.low, crowd.high) = (DVec2::NEG_INFINITY, DVec2::INFINITY);
-        }
-        crowd.points = curve.points().iter().filter(|&&at| crowd.sees(at)).count();
+        let curves =
+            document.objects().iter().filter(|object| object.visible).filter_map(|object| object.curve());
+        crowd.points = curves.flat_map(Nurbs::points).filter(|at| crowd.sees(**at)).count();
         crowd
+    }
+
+    /// As it is drawn of `curve`: one with few control points is drawn whole, also beyond the page.
+    pub(super) fn with(mut self, curve: &Nurbs<DVec2>) -> Self {
+        if curve.points().len() <= FEW_POINTS {
+            (self.low, self.high) = (DVec2::NEG_INFINITY, DVec2::INFINITY);
+        }
+        self
     }
 
     /// Whether the place is in view.
@@ -86,12 +93,13 @@ impl Crowd {
 }
 
 /// What is not drawn, or drawn coarser, because too many control points are in view; a sentence for whoever looks at them, `None` if nothing is left out.
-pub fn left_out(object: &Object, viewport: &Viewport) -> Option<String> {
+pub fn left_out(document: &Document, object: &Object, viewport: &Viewport) -> Option<String> {
     let (curve, display) = (object.curve()?, object.curve_display()?);
-    if curve.points().len() <= MANY_LABELS.min(FEW_POINTS) || !object.visible {
+    let crowd = Crowd::of(document, viewport);
+    if !object.visible || crowd.points <= MANY_LABELS {
         return None;
     }
-    let crowd = Crowd::of(curve, viewport);
+    let crowd = crowd.with(curve);
     let words = words(&crowd, curve, display);
     (!words.is_empty())
         .then(|| format!("{} points in view: {}. Zoom in to see them all", crowd.points, words.join(", ")))
@@ -115,11 +123,19 @@ mod tests {
 
     use super::*;
     use crate::core::bspline::SplineSpace;
+    use crate::document::Edit;
 
     /// Points along a straight line, one to a unit.
     fn line(count: u32) -> Nurbs<DVec2> {
         let space = SplineSpace::new(3, (0..count + 4).map(f64::from).collect()).unwrap();
         Nurbs::polynomial(space, (0..count).map(|k| DVec2::X * f64::from(k)).collect()).unwrap()
+    }
+
+    fn crowd(curve: &Nurbs<DVec2>, viewport: &Viewport) -> Crowd {
+        let mut document = Document::new();
+        let (curve, display) = (curve.clone(), CurveDisplay::default());
+        document.apply(&Edit::AddCurve { name: "line".to_owned(), curve, display }).unwrap();
+        Crowd::of(&document, viewport)
     }
 
     fn view(center: f64, width: f64) -> Viewport {
@@ -129,9 +145,9 @@ mod tests {
     #[test]
     fn what_is_near_is_drawn_and_what_is_crowded_is_not() {
         let curve = line(10_000);
-        let far = Crowd::of(&curve, &view(5000.0, 10_000.0));
+        let far = crowd(&curve, &view(5000.0, 10_000.0));
         assert!(far.dots() && !far.labels() && far.points == 10_000, "{far:?}");
-        let near = Crowd::of(&curve, &view(5000.0, 100.0));
+        let near = crowd(&curve, &view(5000.0, 100.0));
         assert!(!near.dots() && near.labels() && near.points == 121, "{near:?}");
         assert!(near.sees_near(&curve, 5003.0) && !near.sees_near(&curve, 6000.0), "knots in view");
     }
@@ -139,11 +155,11 @@ mod tests {
     #[test]
     fn the_comb_has_a_bounded_number_of_teeth_and_all_of_them_near_by() {
         let curve = line(10_000);
-        let far = Crowd::of(&curve, &view(5000.0, 10_000.0));
+        let far = crowd(&curve, &view(5000.0, 10_000.0));
         let (intervals, teeth) = far.comb_intervals(&curve, 8);
         assert!(intervals.len() * teeth <= MANY_TEETH + 1, "{} of {teeth}", intervals.len());
         assert!(intervals.windows(2).all(|pair| pair[0].1 == pair[1].0), "without gaps");
-        let near = Crowd::of(&curve, &view(5000.0, 100.0));
+        let near = crowd(&curve, &view(5000.0, 100.0));
         let (intervals, teeth) = near.comb_intervals(&curve, 8);
         assert!(teeth == 8 && (121..130).contains(&intervals.len()), "{} of {teeth}", intervals.len());
     }

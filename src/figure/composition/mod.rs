@@ -60,11 +60,11 @@ pub fn compose_with(
         picture.push_layer("grid", grid_lines(viewport, theme));
         picture.push_layer("scale", grid_labels(viewport, theme));
     }
+    let sheet = Sheet { theme, viewport, measurements, crowd: Crowd::of(document, viewport) };
     for object in document.objects().iter().filter(|object| object.visible) {
         let Content::Curve { curve, display } = &object.content else { continue };
         let parameter = parameter_of(curve, view.parameters.get(&object.id).copied());
         let step = choices.step.as_ref().filter(|(id, _)| *id == object.id).map(|(_, step)| step);
-        let sheet = Sheet { theme, viewport, measurements };
         push_curve(&mut picture, object, (curve, display), parameter, step, &sheet);
     }
     picture
@@ -81,6 +81,7 @@ struct Sheet<'a> {
     theme: &'a Theme,
     viewport: &'a Viewport,
     measurements: &'a Measurements,
+    crowd: Crowd,
 }
 
 fn push_curve(
@@ -91,9 +92,9 @@ fn push_curve(
     step: Option<&StepDrawing>,
     sheet: &Sheet<'_>,
 ) {
-    let Sheet { theme, viewport, measurements } = *sheet;
+    let Sheet { theme, viewport, measurements, crowd } = *sheet;
     let layer = |part: &str| format!("{}: {part}", object.name);
-    let crowd = Crowd::of(curve, viewport);
+    let crowd = crowd.with(curve);
     if display.comb {
         picture.push_layer(layer("curvature comb"), curve_layers::comb(curve, display, theme, &crowd));
     }
