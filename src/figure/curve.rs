@@ -6,7 +6,7 @@
 
 use glam::DVec2;
 
-use crate::core::bspline::Spline;
+use crate::core::bspline::{MAX_DEGREE, Spline};
 use crate::core::point::Point;
 use crate::core::rational_bezier::Projective as _;
 use crate::core::spline_curve::Nurbs;
@@ -35,9 +35,16 @@ pub struct SpanPath {
 /// not a number, counts as that; no piece becomes more than 4096 cubics.
 pub fn curve_path(curve: &Nurbs<DVec2>, tolerance: f64) -> Vec<Segment> {
     let mut path: Vec<Segment> = Vec::new();
-    for span in curve_span_paths(curve, tolerance) {
-        let skipped = usize::from(!path.is_empty());
-        path.extend(span.segments.into_iter().skip(skipped));
+    if curve.is_polynomial() && curve.degree() <= 3 {
+        // All pieces in one sweep over the knots.
+        let pieces = curve.without_weights().bezier_pieces();
+        path.push(Segment::Move(pieces.points()[0]));
+        path.extend(pieces.iter().filter_map(|(_, points)| exact_segment(points)));
+    } else {
+        for span in curve_span_paths(curve, tolerance) {
+            let skipped = usize::from(!path.is_empty());
+            path.extend(span.segments.into_iter().skip(skipped));
+        }
     }
     if curve.space().is_periodic()
         && let Some(&Segment::Move(start)) = path.first()
@@ -73,31 +80,25 @@ fn span_path(curve: &Nurbs<DVec2>, span: usize, interval: (f64, f64), tolerance:
     let is_polynomial = (span - n..span).all(|k| weight_of(k).to_bits() == weight_of(k + 1).to_bits());
     if is_polynomial && n <= 3 {
         let points = bezier_points(curve.without_weights(), span, interval);
-        return match *points.as_slice() {
-            [a, b] => vec![Segment::Move(a), Segment::Line(b)],
-            [a, b, c] => {
-                vec![
-                    Segment::Move(a),
-                    Segment::Cubic(a + (b - a) * (2.0 / 3.0), c + (b - c) * (2.0 / 3.0), c),
-                ]
-            }
-            [a, b, c, d] => vec![Segment::Move(a), Segment::Cubic(b, c, d)],
-            _ => Vec::new(),
-        };
+        return [Segment::Move(points[0])].into_iter().chain(exact_segment(&points)).collect();
     }
     let whole = RationalPiece::new(curve, span, interval);
+    // Piece and chord both lie in the disc around the start that holds the control points.
+    if 2.0 * whole.size() <= tolerance {
+        return vec![Segment::Move(whole.points[0]), Segment::Line(whole.points[n])];
+    }
     let tolerance = tolerance.max(SMALLEST_TOLERANCE * whole.size());
     let mut segments = vec![Segment::Move(whole.points[0])];
     // A stack, the leftmost piece on top: pieces not yet drawn, and how often each was halved.
-    let mut pieces = vec![(interval, 0)];
-    while let Some(((a, b), halvings)) = pieces.pop() {
-        let piece = RationalPiece::new(curve, span, (a, b));
+    let mut pieces = vec![(interval, 0, whole)];
+    while let Some(((a, b), halvings, piece)) = pieces.pop() {
         let cubic = piece.hermite_cubic();
         let middle = a + (b - a) * 0.5;
         let can_halve = halvings < MAX_HALVINGS && a < middle && middle < b;
         if can_halve && piece.distance_bound(cubic) > tolerance {
-            pieces.push(((middle, b), halvings + 1));
-            pieces.push(((a, middle), halvings + 1));
+            for half in [(middle, b), (a, middle)] {
+                pieces.push((half, halvings + 1, RationalPiece::new(curve, span, half)));
+            }
         } else {
             segments.push(Segment::Cubic(cubic[1], cubic[2], cubic[3]));
         }
@@ -105,12 +106,28 @@ fn span_path(curve: &Nurbs<DVec2>, span: usize, interval: (f64, f64), tolerance:
     segments
 }
 
+/// A polynomial piece of degree at most 3 behind its start.
+fn exact_segment(points: &[DVec2]) -> Option<Segment> {
+    match *points {
+        [_, b] => Some(Segment::Line(b)),
+        [a, b, c] => Some(Segment::Cubic(a + (b - a) * (2.0 / 3.0), c + (b - c) * (2.0 / 3.0), c)),
+        [_, b, c, d] => Some(Segment::Cubic(b, c, d)),
+        _ => None,
+    }
+}
+
 /// The Bezier points over `interval`, inside knot interval number `span`: the blossom at `(a, …, a, b, …, b)`.
 fn bezier_points<P: Point>(spline: &Spline<P>, span: usize, (a, b): (f64, f64)) -> Vec<P> {
     let (n, knots) = (spline.degree(), spline.space().evaluation_knots());
+    let mut given = [P::ZERO; MAX_DEGREE + 1];
+    for j in 0..=n {
+        given[j] = spline.evaluation_coefficient(span + j - n);
+    }
+    let mut buffer = given;
     (0..=n)
         .map(|copies_of_b| {
-            let mut local: Vec<P> = (0..=n).map(|j| spline.evaluation_coefficient(span + j - n)).collect();
+            let local = &mut buffer[..=n];
+            local.copy_from_slice(&given[..=n]);
             for level in 1..=n {
                 let x = if level <= n - copies_of_b { a } else { b };
                 for j in (level..=n).rev() {
@@ -157,8 +174,8 @@ impl RationalPiece {
     /// norm is at most the largest `|dₖ|/vₖ`.
     fn distance_bound(&self, cubic: [DVec2; 4]) -> f64 {
         let n = self.points.len() - 1;
-        let mut differences = vec![DVec2::ZERO; n + 4];
-        let mut weights = vec![0.0; n + 4];
+        let (mut differences, mut weights) = ([DVec2::ZERO; MAX_DEGREE + 4], [0.0; MAX_DEGREE + 4]);
+        let (differences, weights) = (&mut differences[..n + 4], &mut weights[..n + 4]);
         let mut binomial = 1.0;
         for i in 0..=n {
             for (j, other) in [1.0, 3.0, 3.0, 1.0].into_iter().enumerate() {
@@ -170,7 +187,7 @@ impl RationalPiece {
         }
         differences
             .iter()
-            .zip(&weights)
+            .zip(weights.iter())
             .map(|(difference, weight)| difference.norm() / weight)
             .fold(0.0, f64::max)
     }

@@ -22,7 +22,9 @@ use crate::app::painter::{
 };
 use crate::app::side_rooms;
 use crate::document::{Edit, ObjectId};
-use crate::figure::composition::{Composition, GRID, StepDrawing, compose_with, short_number};
+use crate::figure::composition::{
+    Composition, GRID, Measurements, StepDrawing, compose_with, left_out, short_number,
+};
 use crate::figure::picture::Viewport;
 
 /// Room that the handle of a control point takes on all sides, in pt.
@@ -46,6 +48,7 @@ pub(crate) struct Canvas {
     /// Where the menu was asked for.
     menu_place: DVec2,
     trees: Trees,
+    measurements: Measurements,
     panning: bool,
     wheel: Option<WheelWeight>,
 }
@@ -133,6 +136,11 @@ impl Canvas {
     /// Where a world point is on the screen.
     pub(crate) fn screen_from_world(&self, world: DVec2, lab: &Lab) -> Option<Pos2> {
         self.rect.map(|rect| screen_from_world(&viewport(lab), rect, world))
+    }
+
+    /// What is not drawn of the selected curve because too much of it is in view.
+    pub(super) fn left_out(lab: &Lab) -> Option<String> {
+        left_out(lab.history.document(), lab.selected()?.as_ref(), &viewport(lab))
     }
 
     /// Brings all objects into the canvas.
@@ -243,11 +251,11 @@ impl Canvas {
         }
         if let Some(mut gesture) = self.gesture.take() {
             if down {
-                gesture.drag(pointer, lab, viewport, rect, keys);
+                gesture.drag(pointer, lab, &mut self.trees, (viewport, rect), keys);
                 self.gesture = Some(gesture);
             } else {
                 if released {
-                    gesture.drag(pointer, lab, viewport, rect, keys);
+                    gesture.drag(pointer, lab, &mut self.trees, (viewport, rect), keys);
                 }
                 gesture.release(lab, keys);
             }
@@ -285,7 +293,9 @@ impl Canvas {
     fn paint(&self, lab: &Lab, viewport: &Viewport, rect: Rect, pointer: Option<Pos2>, ui: &Ui) {
         let painter = ui.painter_at(rect);
         let choices = Composition { step: step(lab), transparent: false };
-        let mut picture = compose_with(lab.history.document(), &lab.view, &lab.theme, viewport, &choices);
+        let document = lab.history.document();
+        let mut picture =
+            compose_with(document, &lab.view, &lab.theme, viewport, &choices, &self.measurements);
         side_rooms::lay_over(side_rooms::overlay(lab, viewport), &mut picture);
         paint_picture(&picture, viewport, rect, &painter);
         ghost::paint(lab, viewport, rect, &painter);

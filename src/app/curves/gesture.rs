@@ -6,7 +6,7 @@ use eframe::egui::{Modifiers, Pos2, Rect};
 use glam::DVec2;
 
 use crate::app::curves::handles::weight_for_bead;
-use crate::app::curves::hit::Target;
+use crate::app::curves::hit::{Target, Trees};
 use crate::app::curves::weight_handles::{edge_end, ray, weight_for_ring, weights_for_weight_point};
 use crate::app::hands::{DEAD_ZONE, constrained};
 use crate::app::lab::Lab;
@@ -134,8 +134,8 @@ impl Gesture {
         &mut self,
         pointer: Pos2,
         lab: &mut Lab,
-        viewport: &Viewport,
-        rect: Rect,
+        trees: &mut Trees,
+        (viewport, rect): (&Viewport, Rect),
         keys: Modifiers,
     ) {
         if !self.moved && pointer.distance(self.from) < DEAD_ZONE {
@@ -190,8 +190,8 @@ impl Gesture {
                 lab.update(Edit::MoveEditPoint { object, point, delta });
             }
             Target::Parameter(object) => {
-                let nearest =
-                    lab.history.document().curve(object).and_then(|curve| curve.closest_point(world).ok());
+                let found = lab.history.document().object(object);
+                let nearest = found.and_then(|found| trees.closest_point(found, world));
                 if let Some(nearest) = nearest {
                     lab.set_parameter(object, nearest.parameter);
                 }

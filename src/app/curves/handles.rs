@@ -8,6 +8,7 @@ use glam::DVec2;
 use crate::app::curves::weight_handles::{edge_end, ring_place, weight_points};
 use crate::app::lab::{Hovered, Lab};
 use crate::app::painter::{color32, paint_note, screen_from_world};
+use crate::core::bspline::MAX_DEGREE;
 use crate::core::spline_curve::Nurbs;
 use crate::document::Object;
 use crate::figure::composition::short_number;
@@ -15,6 +16,9 @@ use crate::figure::picture::Viewport;
 
 /// Above this many points the single handles are not announced to assistive programs.
 const ANNOUNCED: usize = 200;
+
+/// Above this many points of all curves together only those of the selected curve are announced.
+const ANNOUNCED_IN_ALL: usize = 600;
 
 /// The curve without the point `index` at the parameter where that point has most influence: the place it would pull
 /// from, and what the weight bead needs: `r = (1 − s)·base + s·c` with `s = w b/(rest + w b)`.
@@ -29,15 +33,16 @@ struct Pull {
 
 fn pull(curve: &Nurbs<DVec2>, index: usize) -> Option<Pull> {
     let (left, right) = curve.space().parameter_interval();
-    let greville = *curve.space().greville_abscissae().get(index)?;
+    let weight = *curve.weights().get(index)?;
+    let greville = curve.space().greville_abscissa(index);
     let parameter = if curve.space().is_periodic() { greville } else { greville.clamp(left, right) };
-    let (span, x) = curve.space().span_on_side(parameter, crate::core::bspline::Side::Right).ok()?;
-    let mut weights = vec![0.0; curve.space().dimension()];
-    weights[index] = 1.0;
-    let influence =
-        crate::core::bspline::Spline::new(curve.space().clone(), weights).ok()?.evaluate_in_span(span, x);
-    let weight = curve.weights()[index];
-    let lifted = curve.homogeneous().evaluate_in_span(span, x);
+    let mut values = [0.0; MAX_DEGREE + 1];
+    let values = &mut values[..=curve.degree()];
+    let first = curve.space().write_active_basis(parameter, values).ok()?;
+    // On a short closed curve the point may have several of them.
+    let own = |&(j, _): &(usize, &f64)| curve.space().coefficient_index(first + j) == index;
+    let influence: f64 = values.iter().enumerate().filter(own).map(|(_, value)| value).sum();
+    let lifted = curve.homogeneous().evaluate(parameter).ok()?;
     let rest = lifted.z - weight * influence;
     let point = curve.points()[index];
     let numerator = lifted.truncate() - point * (weight * influence);
@@ -284,9 +289,13 @@ pub(super) fn announce(named: Vec<(String, DVec2)>, viewport: &Viewport, rect: R
 /// The handles of the visible curves: accessible name and place in the world.
 pub(super) fn named(lab: &Lab, viewport: &Viewport) -> Vec<(String, DVec2)> {
     let mut named = Vec::new();
-    for object in lab.history.document().objects().iter().filter(|object| object.visible) {
+    let objects = lab.history.document().objects();
+    let visible = || objects.iter().filter(|object| object.visible);
+    let in_all: usize = visible().filter_map(|object| object.curve()).map(|curve| curve.points().len()).sum();
+    for object in visible() {
         let Some(curve) = object.curve() else { continue };
-        if curve.points().len() <= ANNOUNCED {
+        let is_one_of_few = in_all <= ANNOUNCED_IN_ALL || lab.selection.object == Some(object.id);
+        if curve.points().len() <= ANNOUNCED && is_one_of_few {
             let points = curve.points().iter().enumerate();
             named
                 .extend(points.map(|(index, &at)| (format!("Control point {index} of {}", object.name), at)));

@@ -53,12 +53,12 @@ pub(super) struct Trees {
 }
 
 impl Trees {
-    fn closest_point(
+    pub(super) fn closest_point(
         &mut self,
         object: &Arc<Object>,
-        curve: &Nurbs<DVec2>,
         place: DVec2,
     ) -> Option<ClosestPoint<DVec2>> {
+        let curve = object.curve()?;
         let known = self.known.entry(object.id);
         let fresh = || (Arc::clone(object), ClosestPointTree::new(curve).ok());
         let (made_of, tree) = known.or_insert_with(fresh);
@@ -156,7 +156,7 @@ pub(super) fn target_at(
         if far_from_polygon(curve.points(), world, reach) {
             continue;
         }
-        if let Some(nearest) = trees.closest_point(object, curve, world)
+        if let Some(nearest) = trees.closest_point(object, world)
             && nearest.distance <= reach
             && best.is_none_or(|(distance, _)| nearest.distance < 0.6 * distance)
         {

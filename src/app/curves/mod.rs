@@ -93,7 +93,8 @@ impl Workspace for Curves {
     }
 
     fn status(&self, lab: &Lab) -> String {
-        format!("{} px per unit", short_number(lab.view.camera.scale))
+        let scale = format!("{} px per unit", short_number(lab.view.camera.scale));
+        Canvas::left_out(lab).map_or_else(|| scale.clone(), |words| format!("{words}   {scale}"))
     }
 
     fn handles(&self, lab: &Lab) -> Vec<(String, egui::Pos2)> {

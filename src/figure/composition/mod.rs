@@ -4,21 +4,28 @@
 //! points and labels, each in a layer named after the object.
 
 mod construction;
+mod crowd;
 mod curve_layers;
 mod looks;
+mod measured;
 mod probe;
+
+use std::sync::Arc;
 
 use glam::DVec2;
 
 use crate::core::spline_curve::Nurbs;
 use crate::document::{Content, CurveDisplay, Document, Object, View};
+use crate::figure::composition::crowd::Crowd;
 use crate::figure::picture::{Picture, Viewport};
 use crate::figure::theme::Theme;
 use crate::figure::ticks::{grid_labels, grid_lines};
 
 pub use construction::{StepDot, StepDrawing, StepInk, StepLine, construction_items};
+pub use crowd::left_out;
 pub use curve_layers::short_number;
 pub use looks::MANY_FOR_LOOKS;
+pub use measured::Measurements;
 pub use probe::{Probe, probe, probe_ends};
 
 /// Name of the entry of [`View::panels`] that says whether the grid is drawn; it is if there is no entry.
@@ -35,27 +42,30 @@ pub struct Composition {
 
 /// The picture of all visible curves of `document` for `viewport`.
 pub fn compose(document: &Document, view: &View, theme: &Theme, viewport: &Viewport) -> Picture {
-    compose_with(document, view, theme, viewport, &Composition::default())
+    compose_with(document, view, theme, viewport, &Composition::default(), &Measurements::default())
 }
 
-/// As [`compose`], with choices.
+/// As [`compose`], with choices; what was measured before in `measurements` is not measured again.
 pub fn compose_with(
     document: &Document,
     view: &View,
     theme: &Theme,
     viewport: &Viewport,
     choices: &Composition,
+    measurements: &Measurements,
 ) -> Picture {
+    measurements.tidy(document);
     let mut picture = Picture::new((!choices.transparent).then_some(theme.background));
     if view.panels.get(GRID).copied().unwrap_or(true) {
         picture.push_layer("grid", grid_lines(viewport, theme));
         picture.push_layer("scale", grid_labels(viewport, theme));
     }
+    let sheet = Sheet { theme, viewport, measurements, crowd: Crowd::of(document, viewport) };
     for object in document.objects().iter().filter(|object| object.visible) {
         let Content::Curve { curve, display } = &object.content else { continue };
         let parameter = parameter_of(curve, view.parameters.get(&object.id).copied());
         let step = choices.step.as_ref().filter(|(id, _)| *id == object.id).map(|(_, step)| step);
-        push_curve(&mut picture, object, (curve, display), parameter, step, theme, viewport);
+        push_curve(&mut picture, object, (curve, display), parameter, step, &sheet);
     }
     picture
 }
@@ -66,24 +76,36 @@ pub fn parameter_of(curve: &Nurbs<DVec2>, chosen: Option<f64>) -> f64 {
     chosen.unwrap_or(left + 0.5 * (right - left)).clamp(left, right)
 }
 
+/// What the parts of the picture of a curve are drawn with.
+struct Sheet<'a> {
+    theme: &'a Theme,
+    viewport: &'a Viewport,
+    measurements: &'a Measurements,
+    crowd: Crowd,
+}
+
 fn push_curve(
     picture: &mut Picture,
-    object: &Object,
+    object: &Arc<Object>,
     (curve, display): (&Nurbs<DVec2>, &CurveDisplay),
     parameter: f64,
     step: Option<&StepDrawing>,
-    theme: &Theme,
-    viewport: &Viewport,
+    sheet: &Sheet<'_>,
 ) {
+    let Sheet { theme, viewport, measurements, crowd } = *sheet;
     let layer = |part: &str| format!("{}: {part}", object.name);
+    let crowd = crowd.with(curve);
     if display.comb {
-        picture.push_layer(layer("curvature comb"), curve_layers::comb(curve, display, theme));
+        picture.push_layer(layer("curvature comb"), curve_layers::comb(curve, display, theme, &crowd));
     }
     if display.hull {
         picture.push_layer(layer("convex hull"), curve_layers::hull(curve, parameter, display, theme));
     }
     if display.distance_tube {
-        picture.push_layer(layer("distance tube"), looks::distance_tube(curve, display, theme));
+        picture.push_layer(
+            layer("distance tube"),
+            looks::distance_tube(curve, &measurements.of(object), display, theme),
+        );
     }
     if display.osculating_circle {
         picture.push_layer(layer("circle of curvature"), curve_layers::circle(curve, parameter, theme));
@@ -92,7 +114,8 @@ fn push_curve(
         picture.push_layer(layer("control polygon"), curve_layers::polygon(curve, theme));
     }
     if display.symmetry {
-        picture.push_layer(layer("symmetry"), looks::symmetry(curve, display, theme));
+        picture
+            .push_layer(layer("symmetry"), looks::symmetry(curve, &measurements.of(object), display, theme));
     }
     picture.push_layer(layer("curve"), curve_layers::curve(curve, display, theme, viewport));
     if let Some(step) = step {
@@ -104,26 +127,30 @@ fn push_curve(
         picture.push_layer(layer("Bezier points"), looks::bezier_points(curve, display, theme));
     }
     if display.inflections {
-        picture.push_layer(layer("inflections"), looks::inflections(curve, theme));
+        picture.push_layer(layer("inflections"), looks::inflections(curve, &measurements.of(object), theme));
     }
     if display.vertices {
-        picture.push_layer(layer("curvature extrema"), looks::vertices(curve, theme));
+        picture
+            .push_layer(layer("curvature extrema"), looks::vertices(curve, &measurements.of(object), theme));
     }
     if display.frame {
         picture.push_layer(layer("frame"), looks::frame(curve, parameter, theme, viewport));
     }
     if display.knots {
-        picture.push_layer(layer("knots"), curve_layers::knots(curve, display, theme));
+        picture.push_layer(layer("knots"), curve_layers::knots(curve, display, theme, &crowd));
     }
     if display.points {
-        picture.push_layer(layer("control points"), curve_layers::points(curve, display, theme));
+        picture.push_layer(layer("control points"), curve_layers::points(curve, display, theme, &crowd));
     }
-    picture.push_layer(layer("labels"), curve_layers::labels(curve, display, theme));
+    picture.push_layer(layer("labels"), curve_layers::labels(curve, display, theme, &crowd));
     if display.blossom_labels {
         picture.push_layer(layer("blossom labels"), looks::blossom_labels(curve, theme));
     }
     if display.probe_line {
-        picture.push_layer(layer("probe line"), probe::items(curve, display, theme, viewport));
+        picture.push_layer(
+            layer("probe line"),
+            probe::items(curve, &measurements.of(object), display, theme, viewport),
+        );
     }
     if display.hodograph {
         picture.push_layer(layer("hodograph"), looks::hodograph(curve, parameter, display, theme, viewport));
