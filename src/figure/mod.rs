@@ -15,6 +15,7 @@ pub mod field;
 pub mod font_metrics;
 pub mod formula;
 pub mod isoline;
+pub mod label_placement;
 pub mod mesh;
 pub mod page;
 pub mod picture;

@@ -12,6 +12,8 @@ mod ghost;
 mod handles;
 mod hermite_hands;
 mod hit;
+mod looks_menu;
+mod mark_tips;
 mod operation_form;
 mod operations;
 mod probe_hands;
@@ -93,7 +95,12 @@ impl Workspace for Curves {
     }
 
     fn status(&self, lab: &Lab) -> String {
-        format!("{} px per unit", short_number(lab.view.camera.scale))
+        let scale = format!("{} px per unit", short_number(lab.view.camera.scale));
+        match self.canvas.left_out() {
+            0 => scale,
+            1 => format!("1 label without room: zoom in or point at its mark   {scale}"),
+            count => format!("{count} labels without room: zoom in or point at their marks   {scale}"),
+        }
     }
 
     fn handles(&self, lab: &Lab) -> Vec<(String, egui::Pos2)> {

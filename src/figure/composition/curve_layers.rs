@@ -16,7 +16,7 @@ use crate::figure::theme::Theme;
 const TOLERANCE: f64 = 0.02;
 
 /// Above this number of control points labels and single markers would only be a smear.
-const MANY_POINTS: usize = 2000;
+pub(super) const MANY_POINTS: usize = 2000;
 
 /// The colour of an object.
 pub(super) fn color(display: &CurveDisplay, theme: &Theme) -> Color {

@@ -10,7 +10,7 @@ use crate::core::rational_bezier::Projective as _;
 use crate::core::spline_curve::{Hyperplane, LineIntersection, Nurbs, variation};
 use crate::core::triangular_scheme::collapse_both;
 use crate::document::CurveDisplay;
-use crate::figure::composition::looks::{bounds, text, too_many};
+use crate::figure::composition::looks::{MANY_FOR_LOOKS, bounds, text, too_many};
 use crate::figure::picture::{Item, Marker, MarkerShape, Path, Stroke, Viewport};
 use crate::figure::theme::Theme;
 
@@ -76,7 +76,6 @@ pub(super) fn items(
         Item::Path(Path::polyline(&[ends[0] - reach, ends[1] + reach], faint)),
         Item::Path(Path::polyline(&ends, Stroke::solid(tint, 1.8 * theme.stroke_scale))),
     ];
-    items.extend(brackets(curve, ends, theme));
     for crossing in &found.curve {
         let rim = Stroke::solid(theme.background, 1.2);
         let (at, shape, size) = (crossing.point, MarkerShape::Disc, 8.0 * theme.stroke_scale.sqrt());
@@ -93,6 +92,11 @@ pub(super) fn items(
 }
 
 /// The boxes of the pieces that may meet the line, smaller from depth to depth.
+pub(super) fn bisection(curve: &Nurbs<DVec2>, display: &CurveDisplay, theme: &Theme) -> Vec<Item> {
+    let few = curve.points().len() <= MANY_FOR_LOOKS;
+    if few { brackets(curve, probe_ends(curve, display), theme) } else { Vec::new() }
+}
+
 fn brackets(curve: &Nurbs<DVec2>, ends: [DVec2; 2], theme: &Theme) -> Vec<Item> {
     let normal = (ends[1] - ends[0]).perp();
     let pieces = curve.homogeneous().bezier_pieces();

@@ -1,0 +1,325 @@
+//! The labels of all curves put into places where they do not lie on each other.
+
+use std::collections::BTreeMap;
+use std::hash::{DefaultHasher, Hash as _, Hasher as _};
+
+use glam::DVec2;
+
+use crate::document::ObjectId;
+use crate::figure::curve::flatten;
+use crate::figure::font_metrics::{FontFace, text_width};
+use crate::figure::formula;
+use crate::figure::label_placement::{Page, PageBox, Placed, Request, Spot};
+use crate::figure::picture::{Item, Label, Layer, MarkerShape, Path, Picture, Viewport};
+use crate::figure::theme::Theme;
+
+/// Paths of more steps are not avoided by labels.
+const LONG_PATH: usize = 1000;
+/// Lines fainter than this may run through labels.
+const FAINT: u8 = 190;
+/// Side of the handle of the parameter, and type size of its note, in pt.
+const HANDLE: f64 = 13.0;
+const NOTE_SIZE: f64 = 12.0;
+/// Ground around the note in pt.
+const NOTE_ROOM: DVec2 = DVec2::new(6.0, 3.0);
+
+/// Sizes of insets, as parts of the largest: smaller ones where the larger would cover something.
+const INSET_SIZES: [f64; 3] = [1.0, 0.8, 0.65];
+/// Distance of insets from the upper and right edge, from the left, and from the lower edge, where the scale stands, in pt.
+const INSET_EDGE: (f64, f64, f64) = (12.0, 44.0, 26.0);
+
+/// Where labels stood before.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct LabelMemory {
+    spots: BTreeMap<u64, Spot>,
+    /// The corner of the inset of each curve.
+    pub(super) corners: BTreeMap<ObjectId, u8>,
+}
+
+/// What became of the labels.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Arrangement {
+    /// For each curve whose parameter has a handle: from the point to the lower left corner of its note, in pt, y up.
+    pub notes: BTreeMap<ObjectId, DVec2>,
+    /// The labels for which there was no room.
+    pub left_out: Vec<String>,
+    /// Where everything stands, to be given back while something is dragged.
+    pub memory: LabelMemory,
+}
+
+/// The handle of a parameter with its note.
+#[derive(Clone, Debug)]
+pub(super) struct Handle {
+    pub(super) object: ObjectId,
+    pub(super) at: DVec2,
+    pub(super) words: String,
+}
+
+/// How important the labels of a layer are, 0 first; `None` for labels that stand where they are.
+fn priority(part: &str) -> Option<u8> {
+    Some(match part {
+        "construction" | "frame" => 1,
+        "distance tube" | "probe line" | "symmetry" | "hodograph" => 2,
+        "inflections" | "curvature extrema" => 3,
+        "labels" => 4,
+        "blossom labels" => 5,
+        "bisection" => 6,
+        _ => return None,
+    })
+}
+
+/// The note of a parameter.
+pub(super) fn note_words(parameter: f64) -> String {
+    format!("t = {}", super::short_number(parameter))
+}
+
+fn part_of(layer: &Layer) -> &str {
+    layer.name.rsplit_once(": ").map_or("", |(_, part)| part)
+}
+
+/// The box of a label whose place is the origin, before its offset.
+fn extent(label: &Label) -> PageBox {
+    let (width, ascent, descent) = match formula::layout(&label.text, label.size) {
+        Ok(layout) if label.math => (layout.width, layout.ascent, layout.descent),
+        _ => (text_width(FontFace::Regular, &label.text, label.size), 0.76 * label.size, 0.22 * label.size),
+    };
+    let low = DVec2::new(-label.anchor.part_before() * width, -descent);
+    PageBox { low, high: low + DVec2::new(width, ascent + descent) }
+}
+
+/// From the world to the page in pt, y up.
+fn on_page(world: DVec2, viewport: &Viewport) -> DVec2 {
+    (world - viewport.center) * viewport.scale + viewport.size * 0.5
+}
+
+/// What labels keep away from.
+struct Occupied {
+    page: Page,
+    /// Half sizes of the marks, by the place of their centres in whole pt.
+    marks: BTreeMap<(i64, i64), f64>,
+}
+
+fn cell(at: DVec2) -> (i64, i64) {
+    (at.x.round() as i64, at.y.round() as i64)
+}
+
+fn block_mark(
+    page: &mut Page,
+    marks: &mut BTreeMap<(i64, i64), f64>,
+    at: DVec2,
+    half: f64,
+    viewport: &Viewport,
+) {
+    if at.cmpge(DVec2::splat(-half)).all() && at.cmple(viewport.size + half).all() {
+        page.block(PageBox::around(at, half));
+        let known = marks.entry(cell(at)).or_default();
+        *known = known.max(half);
+    }
+}
+
+/// The marks, the scale and the lines of a picture.
+fn occupied(picture: &Picture, viewport: &Viewport) -> Occupied {
+    let (mut page, mut marks) = (Page::new(viewport.size), BTreeMap::new());
+    let on_page = |world: DVec2| on_page(world, viewport);
+    for layer in &picture.layers {
+        let part = part_of(layer);
+        for item in &layer.items {
+            match item {
+                Item::Marker(found) => {
+                    let stroke = found.stroke.as_ref().map_or(0.0, |stroke| 0.5 * stroke.width);
+                    let tip =
+                        if found.shape == MarkerShape::Diamond { std::f64::consts::SQRT_2 } else { 1.0 };
+                    let half = 0.5 * found.size * tip + stroke;
+                    block_mark(&mut page, &mut marks, on_page(found.at), half, viewport);
+                }
+                Item::Label(label) if layer.name == "scale" => {
+                    let (area, at) = (extent(label), on_page(label.at) + label.offset);
+                    page.block(PageBox { low: area.low + at, high: area.high + at });
+                }
+                Item::Path(path) if is_avoided(part, path) => {
+                    for line in flatten(&path.segments, 0.5 / viewport.scale) {
+                        page.avoid(&line.into_iter().map(on_page).collect::<Vec<_>>());
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+    Occupied { page, marks }
+}
+
+/// Squares in the corners of the page for insets, one for each of `objects`, where they cover least; `former` ones come first.
+pub(super) fn insets(
+    picture: &Picture,
+    objects: &[ObjectId],
+    viewport: &Viewport,
+    former: &LabelMemory,
+) -> Vec<(u8, PageBox)> {
+    if objects.is_empty() {
+        return Vec::new();
+    }
+    let mut page = occupied(picture, viewport).page;
+    let largest = (0.34 * viewport.size.min_element()).min(190.0);
+    let mut found = Vec::new();
+    for object in objects {
+        let mut corners: Vec<u8> = (0..4).collect();
+        if let Some(&corner) = former.corners.get(object) {
+            corners.sort_by_key(|&other| other != corner);
+        }
+        let places = INSET_SIZES.iter().flat_map(|share| {
+            corners.iter().map(move |&corner| (corner, corner_box(corner, share * largest, viewport.size)))
+        });
+        let costs = places.map(|(corner, area)| (page.content(&area), corner, area));
+        let mut best: Option<(usize, u8, PageBox)> = None;
+        for place in costs {
+            if best.is_none_or(|best| place.0 < best.0) {
+                best = Some(place);
+            }
+            if place.0 == 0 {
+                break;
+            }
+        }
+        if let Some((_, corner, area)) = best {
+            // A second inset on the first would be worse than any line.
+            (0..100).for_each(|_| page.block(area));
+            found.push((corner, area));
+        }
+    }
+    found
+}
+
+/// The square with this side in corner 0 (upper right), 1 (lower right), 2 (upper left) or 3, beside the numbers of the scale.
+fn corner_box(corner: u8, side: f64, size: DVec2) -> PageBox {
+    let x = if corner < 2 { size.x - INSET_EDGE.0 - side } else { INSET_EDGE.1 };
+    let y = if corner.is_multiple_of(2) { size.y - INSET_EDGE.0 - side } else { INSET_EDGE.2 };
+    let low = DVec2::new(x, y);
+    PageBox { low, high: low + side }
+}
+
+/// Moves the labels of the curves in `picture` to free places, and takes out those for which there is none. `insets` are boxes on the page, y up, that
+/// nothing may cover.
+pub(super) fn arrange(
+    picture: &mut Picture,
+    handle: Option<&Handle>,
+    insets: &[PageBox],
+    viewport: &Viewport,
+    theme: &Theme,
+    former: &LabelMemory,
+) -> Arrangement {
+    let mut arrangement = Arrangement::default();
+    let on_page = |world: DVec2| on_page(world, viewport);
+    let has_labels = |layer: &Layer| {
+        priority(part_of(layer)).is_some() && layer.items.iter().any(|item| matches!(item, Item::Label(_)))
+    };
+    if handle.is_none() && !picture.layers.iter().any(has_labels) {
+        return arrangement;
+    }
+    let Occupied { mut page, mut marks } = occupied(picture, viewport);
+    insets.iter().for_each(|&inset| page.block(inset));
+    if let Some(handle) = handle {
+        block_mark(&mut page, &mut marks, on_page(handle.at), 0.5 * HANDLE, viewport);
+    }
+    let request = |at: DVec2, size: DVec2, wish: DVec2, priority: u8, stays: bool, key: u64| {
+        let inside = at.clamp(DVec2::splat(0.0), viewport.size.max(DVec2::ZERO));
+        let anchor = if stays { inside } else { at };
+        let (x, y) = cell(anchor);
+        let near = (-1..=1).flat_map(|i| (-1..=1).map(move |j| (x + i, y + j)));
+        let reach = near.filter_map(|place| marks.get(&place)).copied().fold(0.0, f64::max);
+        Request { anchor, size, reach, wish, priority, stays, former: former.spots.get(&key).copied() }
+    };
+
+    let mut requests = Vec::new();
+    let mut keys = Vec::new();
+    if let Some(handle) = handle.filter(|handle| is_inside(on_page(handle.at), viewport)) {
+        let size = NOTE_SIZE * theme.text_scale;
+        let words = text_width(FontFace::Regular, &handle.words, size);
+        let area = DVec2::new(words, 1.25 * size) + 2.0 * NOTE_ROOM;
+        let key = key_of("note", handle.object.0 as usize);
+        requests.push(request(on_page(handle.at), area, DVec2::ONE, 0, true, key));
+        keys.push(key);
+    }
+    let of_notes = requests.len();
+    let mut places = Vec::new();
+    let mut fixed = Vec::new();
+    for (number, layer) in picture.layers.iter().enumerate() {
+        let Some(priority) = priority(part_of(layer)) else { continue };
+        for (index, item) in layer.items.iter().enumerate() {
+            let Item::Label(label) = item else { continue };
+            let (at, area) = (on_page(label.at), extent(label));
+            if part_of(layer) == "bisection" {
+                fixed.push((
+                    number,
+                    index,
+                    PageBox { low: area.low + at + label.offset, high: area.high + at + label.offset },
+                ));
+                continue;
+            }
+            if part_of(layer) == "hodograph" && label.color != theme.warning {
+                continue;
+            }
+            let stays = priority == 2 || label.color == theme.warning;
+            // What belongs to a place that is not seen is not seen either.
+            let wish = label.offset + 0.5 * (area.low + area.high) * DVec2::new(0.0, 1.0);
+            let key = key_of(&layer.name, index);
+            if is_inside(at, viewport) || stays {
+                requests.push(request(at, area.high - area.low, wish, priority, stays, key));
+                keys.push(key);
+                places.push((number, index, Some(area.low)));
+            } else {
+                places.push((number, index, None));
+            }
+        }
+    }
+    let placed = page.place(&requests);
+    for (key, found) in keys.into_iter().zip(&placed) {
+        if let Some(found) = found {
+            arrangement.memory.spots.insert(key, found.spot);
+        }
+    }
+    if let (Some(handle), Some(Some(Placed { low, .. }))) = (handle, placed[..of_notes].first()) {
+        arrangement.notes.insert(handle.object, *low + NOTE_ROOM - on_page(handle.at));
+    }
+    let mut gone = Vec::new();
+    let mut found = placed[of_notes..].iter();
+    for (number, index, area_low) in places {
+        let spot = area_low.and_then(|area_low| Some((area_low, found.next().copied().flatten())));
+        let Some(Item::Label(label)) = picture.layers[number].items.get_mut(index) else { continue };
+        match spot {
+            Some((area_low, Some(Placed { low, .. }))) => label.offset = low - area_low - on_page(label.at),
+            Some((_, None)) => {
+                arrangement.left_out.push(label.text.clone());
+                gone.push((number, index));
+            }
+            None => gone.push((number, index)),
+        }
+    }
+    for (number, index, area) in fixed {
+        if page.is_free(&area) {
+            page.block(area);
+        } else {
+            gone.push((number, index));
+        }
+    }
+    gone.sort_unstable();
+    for (number, index) in gone.into_iter().rev() {
+        picture.layers[number].items.remove(index);
+    }
+    arrangement
+}
+
+fn is_inside(at: DVec2, viewport: &Viewport) -> bool {
+    at.cmpge(DVec2::ZERO).all() && at.cmple(viewport.size).all()
+}
+
+/// Whether labels would rather not lie on a path.
+fn is_avoided(part: &str, path: &Path) -> bool {
+    let seen = path.stroke.as_ref().is_some_and(|stroke| stroke.color.a >= FAINT);
+    let is_line = !matches!(part, "" | "curvature comb" | "bisection" | "hodograph");
+    is_line && seen && path.segments.len() <= LONG_PATH
+}
+
+fn key_of(layer: &str, index: usize) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    (layer, index).hash(&mut hasher);
+    hasher.finish()
+}
