@@ -1,7 +1,7 @@
 //! Places for labels beside their marks, so that no label lies on another, on a mark or off the page.
 //!
 //! Every label has 8 directions around its anchor at two distances. The labels are placed one after the other, those of higher priority first, each at its
-//! first place that is free and not crossed by a line, or else free; a label that finds none is left out unless it must stay. Boxes and lines are looked
+//! first place that is free and not crossed by a line, or else free; a label that finds none is left out, or put anywhere on the page if it is a sentence. Boxes and lines are looked
 //! up in a grid, so that the time grows with the number of labels and not with its square. The same labels always get the same places; while something is
 //! dragged, a label keeps its former direction as long as that is free.
 
@@ -11,12 +11,15 @@ use crate::figure::clip::segment_in_box;
 
 /// Side of a cell of the grid in pt.
 const CELL: f64 = 40.0;
-/// Free room between a mark and its label in pt: near, far, and for labels that must stay also farther.
+/// Free room between a mark and its label in pt: near, far, and for labels that may stand anywhere also farther.
 const GAPS: [f64; 6] = [3.0, 13.0, 28.0, 48.0, 74.0, 110.0];
 /// How many of them labels have that may be left out.
 const GAPS_OF_MOST: usize = 2;
 /// Least room between a label and the edge of the page in pt.
 const EDGE: f64 = 2.0;
+
+/// Instead of a distance: a place that has nothing to do with the direction.
+const ANYWHERE: u8 = u8::MAX;
 
 /// The directions counterclockwise from the right.
 const DIRECTIONS: [(f64, f64); 8] =
@@ -56,7 +59,7 @@ pub struct Request {
     pub wish: DVec2,
     /// Labels of smaller numbers are placed first.
     pub priority: u8,
-    /// Whether it must stay, at whatever distance.
+    /// Whether it may stand at any distance rather than be left out.
     pub stays: bool,
     /// Where it stood before, while something is dragged.
     pub former: Option<Spot>,
@@ -204,7 +207,7 @@ impl Page {
             let area = area_of(*spot);
             self.is_on_page(&area) && self.is_free(&area)
         };
-        if let Some(former) = request.former.filter(&fits) {
+        if let Some(former) = request.former.filter(|spot| spot.gap != ANYWHERE).filter(&fits) {
             return Some(Placed { low: request.corner(former), spot: former });
         }
         let gaps = if request.stays { GAPS.len() } else { GAPS_OF_MOST };
@@ -221,11 +224,33 @@ impl Page {
                 free.get_or_insert(spot);
             }
         }
-        let last = request.stays.then(|| request.spots(1).next()).flatten();
-        let spot = free.or(last)?;
-        let low = request.corner(spot);
-        let low = low.min(self.size - EDGE - request.size).max(DVec2::splat(EDGE));
-        Some(Placed { low, spot })
+        if let Some(spot) = free {
+            return Some(Placed { low: request.corner(spot), spot });
+        }
+        if request.stays { self.anywhere(request) } else { None }
+    }
+
+    /// The free place on the page that is nearest to the anchor.
+    fn anywhere(&self, request: &Request) -> Option<Placed> {
+        let spot = Spot { direction: 0, gap: ANYWHERE };
+        let on_page = |low: DVec2| low.min(self.size - EDGE - request.size).max(DVec2::splat(EDGE));
+        let wanted = on_page(request.corner(Spot { gap: 0, ..spot }));
+        let room = (self.size - request.size - 2.0 * EDGE).max(DVec2::ZERO);
+        let step = (room / 40.0).max(DVec2::new(12.0, 4.0));
+        let count = (room / step).floor();
+        if !(count.is_finite() && request.size.is_finite()) {
+            return None;
+        }
+        let columns = 0..=count.x as u32;
+        let places = columns.flat_map(|i| {
+            (0..=count.y as u32).map(move |j| EDGE + step * DVec2::new(f64::from(i), f64::from(j)))
+        });
+        let free = places.filter(|&low| {
+            let area = PageBox { low, high: low + request.size };
+            self.is_on_page(&area) && self.is_free(&area)
+        });
+        let nearest = free.min_by(|a, b| a.distance(wanted).total_cmp(&b.distance(wanted)));
+        nearest.map(|low| Placed { low, spot })
     }
 }
 

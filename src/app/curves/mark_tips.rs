@@ -27,9 +27,10 @@ pub(super) fn show(lab: &Lab, viewport: &Viewport, rect: Rect, pointer: Pos2, ui
     let id = ui.make_persistent_id("marks under the pointer");
     let tooltip = Tooltip::always_open(ui.ctx().clone(), ui.layer_id(), id, PopupAnchor::Pointer);
     tooltip.gap(16.0).show(|ui| {
+        ui.spacing_mut().item_spacing.y = 1.0;
         for note in notes {
             ui.label(RichText::new(note.title).strong());
-            ui.label(note.facts.join("\n"));
+            ui.label(note.facts.join(", "));
         }
     });
 }

@@ -16,7 +16,7 @@ use crate::figure::theme::Theme;
 /// Paths of more steps are not avoided by labels.
 const LONG_PATH: usize = 1000;
 /// Lines fainter than this may run through labels.
-const FAINT: u8 = 190;
+const FAINT: u8 = 120;
 /// Side of the handle of the parameter, and type size of its note, in pt.
 const HANDLE: f64 = 13.0;
 const NOTE_SIZE: f64 = 12.0;
@@ -314,7 +314,7 @@ fn is_inside(at: DVec2, viewport: &Viewport) -> bool {
 /// Whether labels would rather not lie on a path.
 fn is_avoided(part: &str, path: &Path) -> bool {
     let seen = path.stroke.as_ref().is_some_and(|stroke| stroke.color.a >= FAINT);
-    let is_line = !matches!(part, "" | "curvature comb" | "bisection" | "hodograph");
+    let is_line = !matches!(part, "" | "bisection" | "hodograph");
     is_line && seen && path.segments.len() <= LONG_PATH
 }
 
@@ -322,4 +322,156 @@ fn key_of(layer: &str, index: usize) -> u64 {
     let mut hasher = DefaultHasher::new();
     (layer, index).hash(&mut hasher);
     hasher.finish()
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests stop at the first surprise")]
+
+    use super::*;
+    use crate::core::spline_curve::Nurbs;
+    use crate::document::{CurveDisplay, Document, Edit, PointLabels, View, first_scene};
+    use crate::figure::composition::{Composition, compose_arranged, compose_with};
+
+    /// Everything that can be shown.
+    fn everything(color: usize, labels: PointLabels) -> CurveDisplay {
+        CurveDisplay {
+            color,
+            labels,
+            comb: true,
+            construction: true,
+            osculating_circle: true,
+            frame: true,
+            hodograph: true,
+            bezier_points: true,
+            blossom_labels: true,
+            distance_tube: true,
+            inflections: true,
+            vertices: true,
+            symmetry: true,
+            probe_line: true,
+            ..CurveDisplay::default()
+        }
+    }
+
+    fn scene(shown: &[&str]) -> (Document, View) {
+        let (mut document, view) = first_scene();
+        let ids: Vec<_> = document.objects().iter().map(|object| (object.id, object.name.clone())).collect();
+        for (color, (object, name)) in ids.into_iter().enumerate() {
+            if shown.contains(&name.as_str()) {
+                let display = everything(color, PointLabels::Coordinates);
+                document.apply(&Edit::SetDisplay { object, display }).unwrap();
+            }
+        }
+        (document, view)
+    }
+
+    fn viewport(document: &Document, size: DVec2) -> Viewport {
+        let (low, high) = document.bounding_box().unwrap();
+        Viewport::fitting(low, high, size, 40.0)
+    }
+
+    /// The labels of the curves with their boxes on the page.
+    fn boxes(picture: &Picture, viewport: &Viewport) -> Vec<(String, PageBox)> {
+        let layers = picture.layers.iter().filter(|layer| !matches!(part_of(layer), "" | "bisection"));
+        let labels = layers.flat_map(|layer| &layer.items).filter_map(|item| {
+            let Item::Label(label) = item else { return None };
+            let (area, at) = (extent(label), on_page(label.at, viewport) + label.offset);
+            Some((label.text.clone(), PageBox { low: area.low + at, high: area.high + at }))
+        });
+        labels.collect()
+    }
+
+    #[test]
+    fn with_everything_shown_no_label_lies_on_another_or_on_a_mark_or_off_the_page() {
+        let sizes = [(1400.0, 800.0), (1000.0, 600.0), (500.0, 420.0)].map(DVec2::from);
+        for shown in [vec!["Wave"], vec!["Wave", "Circle", "Pebble"]] {
+            let (document, view) = scene(&shown);
+            for (theme, size) in
+                Theme::all().into_iter().flat_map(|theme| sizes.map(|size| (theme.clone(), size)))
+            {
+                let viewport = viewport(&document, size);
+                let choices = Composition::default();
+                let (picture, found) = compose_arranged(&document, &view, &theme, &viewport, &choices);
+                let boxes = boxes(&picture, &viewport);
+                let told = format!("{shown:?}, {size}, {}", theme.name);
+                assert!(
+                    boxes.len() > 12 && boxes.len() > found.left_out.len(),
+                    "{} labels, {told}",
+                    boxes.len()
+                );
+                let marks: Vec<PageBox> = picture
+                    .layers
+                    .iter()
+                    .flat_map(|layer| &layer.items)
+                    .filter_map(|item| {
+                        let Item::Marker(mark) = item else { return None };
+                        Some(PageBox::around(on_page(mark.at, &viewport), 0.45 * mark.size))
+                    })
+                    .collect();
+                for (k, (text, area)) in boxes.iter().enumerate() {
+                    assert!(
+                        area.low.min_element() >= 0.0 && area.high.cmple(size).all(),
+                        "{text} off the page, {told}"
+                    );
+                    for (other, taken) in &boxes[..k] {
+                        assert!(!area.meets(taken), "{text} on {other}, {told}");
+                    }
+                    assert!(!marks.iter().any(|mark| mark.meets(area)), "{text} on a mark, {told}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn window_and_export_place_alike_and_a_drag_keeps_the_sides() {
+        let (mut document, view) = scene(&["Wave"]);
+        let viewport = viewport(&document, DVec2::new(1000.0, 600.0));
+        let (theme, object) = (Theme::light(), view.selected_object.unwrap());
+        let window = Composition { handle: Some(object), ..Composition::default() };
+        let (picture, before) = compose_arranged(&document, &view, &theme, &viewport, &window);
+        let export = compose_with(&document, &view, &theme, &viewport, &Composition::default());
+        assert_eq!(picture, export, "the same on the page");
+        let mut dragged = Composition { former: before.memory.clone(), ..window };
+        for step in 1..=8 {
+            let edit = Edit::MovePoints { object, points: vec![7], delta: DVec2::new(0.02, 0.01) };
+            document.apply(&edit).unwrap();
+            let after = compose_arranged(&document, &view, &theme, &viewport, &dragged).1;
+            let spots = &before.memory.spots;
+            let kept = spots.iter().filter(|(key, spot)| after.memory.spots.get(key) == Some(spot)).count();
+            assert!(kept + 3 >= spots.len(), "step {step}: {kept} of {} keep their sides", spots.len());
+            dragged.former = after.memory;
+        }
+    }
+
+    #[test]
+    fn an_inset_goes_where_nothing_is() {
+        let (document, view) = scene(&["Wave"]);
+        let theme = Theme::dark();
+        for (size, center) in
+            [((900.0, 600.0), (0.0, 0.0)), ((600.0, 400.0), (3.0, -1.5)), ((900.0, 600.0), (-3.0, 1.0))]
+        {
+            let viewport = Viewport { center: center.into(), scale: 45.0, size: size.into() };
+            let choices = Composition::default();
+            let (picture, found) = compose_arranged(&document, &view, &theme, &viewport, &choices);
+            let corner = *found.memory.corners.values().next().unwrap();
+            let layer = picture.layers.iter().find(|layer| part_of(layer) == "hodograph").unwrap();
+            let Item::Path(frame) = &layer.items[0] else { panic!("the frame") };
+            let corners = flatten(&frame.segments, 1.0).remove(0);
+            let [low, high] = [corners[0], corners[2]].map(|corner| on_page(corner, &viewport));
+            let covered = |curve: &Nurbs<DVec2>| {
+                curve.points().iter().any(|&point| {
+                    let at = on_page(point, &viewport);
+                    at.cmpgt(low).all() && at.cmplt(high).all()
+                })
+            };
+            assert!(
+                !document.objects().iter().filter_map(|object| object.curve()).any(covered),
+                "corner {corner} at {center:?}"
+            );
+            let caption =
+                boxes(&picture, &viewport).into_iter().find(|(text, _)| text.contains('/')).unwrap().1;
+            assert!(caption.low.cmpgt(low).all() && caption.high.cmplt(high).all(), "the caption inside");
+        }
+    }
 }

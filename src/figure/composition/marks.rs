@@ -7,11 +7,11 @@ use crate::core::rational_bezier::Projective as _;
 use crate::core::spline_curve::{Meeting, Nurbs, SymmetryKind, VertexKind};
 use crate::document::{CurveDisplay, Document, Object};
 use crate::figure::composition::curve_layers::{MANY_POINTS, short_number};
-use crate::figure::composition::looks::MANY_FOR_LOOKS;
+use crate::figure::composition::looks::{MANY_FOR_LOOKS, bounds};
 use crate::figure::composition::probe::{probe, probe_ends};
 
 /// More marks at one place are not told.
-const MOST: usize = 4;
+const MOST: usize = 6;
 
 /// What a mark is, and its numbers.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,14 +29,16 @@ pub fn marks_near(document: &Document, place: DVec2, reach: f64) -> Vec<MarkNote
     let mut notes = Vec::new();
     for object in document.objects().iter().filter(|object| object.visible) {
         let Some((curve, display)) = object.curve().zip(object.curve_display()) else { continue };
-        let mut marks = Marks { object, curve, place, reach, notes: &mut notes };
-        marks.points(display);
-        marks.knots(display);
+        let (low, high) = bounds(curve);
+        let size = (high - low).length();
+        let mut marks = Marks { object, curve, place, reach, size, notes: &mut notes };
         if curve.points().len() <= MANY_FOR_LOOKS {
+            marks.joints(document);
             marks.measured(display);
             marks.symmetry(display);
-            marks.joints(document);
         }
+        marks.points(display);
+        marks.knots(display);
     }
     notes.sort_by(|a, b| a.at.distance(place).total_cmp(&b.at.distance(place)));
     notes.truncate(MOST);
@@ -48,27 +50,35 @@ struct Marks<'a> {
     curve: &'a Nurbs<DVec2>,
     place: DVec2,
     reach: f64,
+    /// The size of the curve: much smaller numbers are rounding.
+    size: f64,
     notes: &'a mut Vec<MarkNote>,
 }
 
-fn pair(at: DVec2) -> String {
-    format!("({}, {})", short_number(at.x), short_number(at.y))
-}
-
 impl Marks<'_> {
+    fn number(&self, length: f64) -> String {
+        short_number(if length.abs() <= 1e-12 * self.size { 0.0 } else { length })
+    }
+
+    fn pair(&self, at: DVec2) -> String {
+        format!("({}, {})", self.number(at.x), self.number(at.y))
+    }
+
     /// Adds a mark if it is near enough.
-    fn add(&mut self, at: DVec2, title: String, facts: impl FnOnce() -> Vec<String>) {
+    fn add(&mut self, at: DVec2, title: String, facts: impl FnOnce(&Self) -> Vec<String>) {
         if at.distance(self.place) <= self.reach {
             let title = format!("{title} of {}", self.object.name);
-            self.notes.push(MarkNote { at, title, facts: facts() });
+            let facts = facts(self);
+            self.notes.push(MarkNote { at, title, facts });
         }
     }
 
     /// Adds a mark on the curve: its parameter, its place and what else there is to say.
     fn add_on_curve(&mut self, parameter: f64, title: &str, more: Vec<String>) {
         if let Ok(at) = self.curve.evaluate(parameter) {
-            let facts = || {
-                let mut facts = vec![format!("t = {}", short_number(parameter)), format!("at {}", pair(at))];
+            let facts = |marks: &Self| {
+                let mut facts =
+                    vec![format!("t = {}", short_number(parameter)), format!("at {}", marks.pair(at))];
                 facts.extend(more);
                 facts
             };
@@ -89,11 +99,11 @@ impl Marks<'_> {
         }
         let (curve, n) = (self.curve, self.curve.degree());
         for (k, (&at, &weight)) in curve.points().iter().zip(curve.weights()).enumerate() {
-            self.add(at, format!("Control point {k}"), || {
+            self.add(at, format!("Control point {k}"), |marks| {
                 let knots = (k + 1..=k + n).filter_map(|j| curve.space().knot(j as isize)).map(short_number);
                 let knots = knots.collect::<Vec<_>>().join(", ");
                 vec![
-                    format!("at {}", pair(at)),
+                    format!("at {}", marks.pair(at)),
                     format!("weight {}", short_number(weight)),
                     format!("blossom [{knots}]"),
                 ]
@@ -153,9 +163,9 @@ impl Marks<'_> {
             for (piece, ((a, b), lifted)) in curve.homogeneous().bezier_pieces().iter().enumerate() {
                 for (j, &lifted) in lifted.iter().enumerate() {
                     let (at, weight) = DVec2::project(lifted);
-                    self.add(at, format!("Bezier point {j} of piece {piece}"), || {
+                    self.add(at, format!("Bezier point {j} of piece {piece}"), |marks| {
                         vec![
-                            format!("at {}", pair(at)),
+                            format!("at {}", marks.pair(at)),
                             format!("weight {}", short_number(weight)),
                             format!("piece over [{}, {}]", short_number(a), short_number(b)),
                         ]
@@ -178,18 +188,22 @@ impl Marks<'_> {
             return;
         }
         let Ok([best, _]) = self.curve.symmetries() else { return };
-        let off = format!("largest deviation {}", short_number(best.deviation));
+        let off = format!("largest deviation {}", self.number(best.deviation));
         match best.kind {
             SymmetryKind::Axis { through, direction } => {
                 let foot = through + direction * (self.place - through).dot(direction);
                 let angle = direction.y.atan2(direction.x).to_degrees().rem_euclid(180.0);
-                let facts = || {
-                    vec![format!("through {}", pair(through)), format!("angle {}°", short_number(angle)), off]
+                let facts = |marks: &Self| {
+                    vec![
+                        format!("through {}", marks.pair(through)),
+                        format!("angle {}°", short_number(angle)),
+                        off,
+                    ]
                 };
                 self.add(foot, "Nearest axis of symmetry".to_owned(), facts);
             }
             SymmetryKind::Center(center) => {
-                let facts = || vec![format!("at {}", pair(center)), off];
+                let facts = |marks: &Self| vec![format!("at {}", marks.pair(center)), off];
                 self.add(center, "Nearest centre of symmetry".to_owned(), facts);
             }
         }
@@ -213,7 +227,7 @@ impl Marks<'_> {
             }
             let told = |number: Option<f64>| number.map_or_else(|| "undefined".to_owned(), short_number);
             let facts = vec![
-                format!("G⁰ distance {}", short_number(joint.gap)),
+                format!("G⁰ distance {}", self.number(joint.gap)),
                 format!("G¹ angle {}°", told(joint.angle.map(f64::to_degrees))),
                 format!("G² difference of κ {}", told(joint.curvature)),
             ];
