@@ -79,6 +79,8 @@ pub struct Placed {
     pub low: DVec2,
     /// Which of the places it is.
     pub spot: Spot,
+    /// Whether a line runs through it.
+    pub is_crossed: bool,
 }
 
 /// A page with everything that labels keep away from.
@@ -207,15 +209,19 @@ impl Page {
             let area = area_of(*spot);
             self.is_on_page(&area) && self.is_free(&area)
         };
+        let placed = |spot: Spot| {
+            let is_crossed = !self.is_clean(&area_of(spot));
+            Some(Placed { low: request.corner(spot), spot, is_crossed })
+        };
         if let Some(former) = request.former.filter(|spot| spot.gap != ANYWHERE).filter(&fits) {
-            return Some(Placed { low: request.corner(former), spot: former });
+            return placed(former);
         }
         let gaps = if request.stays { GAPS.len() } else { GAPS_OF_MOST };
         let mut free = None;
         for spot in request.spots(gaps) {
             if fits(&spot) {
                 if self.is_clean(&area_of(spot)) {
-                    return Some(Placed { low: request.corner(spot), spot });
+                    return placed(spot);
                 }
                 // Far away is worse than on a line.
                 if spot.gap as usize >= GAPS_OF_MOST && free.is_some() {
@@ -225,7 +231,7 @@ impl Page {
             }
         }
         if let Some(spot) = free {
-            return Some(Placed { low: request.corner(spot), spot });
+            return placed(spot);
         }
         if request.stays { self.anywhere(request) } else { None }
     }
@@ -250,7 +256,10 @@ impl Page {
             self.is_on_page(&area) && self.is_free(&area)
         });
         let nearest = free.min_by(|a, b| a.distance(wanted).total_cmp(&b.distance(wanted)));
-        nearest.map(|low| Placed { low, spot })
+        nearest.map(|low| {
+            let is_crossed = !self.is_clean(&PageBox { low, high: low + request.size });
+            Placed { low, spot, is_crossed }
+        })
     }
 }
 

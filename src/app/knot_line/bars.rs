@@ -65,18 +65,18 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, scene: &Scene, rect: Rect) {
             color,
         );
         if j.is_multiple_of(every) {
-            painter.text(pos2(x, bottom + 3.0), Align2::CENTER_TOP, k.to_string(), index.clone(), color);
+            painter.text(pos2(x, bottom + 1.5), Align2::CENTER_TOP, k.to_string(), index.clone(), color);
         }
         if has_values {
             let text = if value > 0.0 && value < 0.005 { "~0".to_owned() } else { format!("{value:.2}") };
-            let at = pos2(x, bottom + 5.0 + 1.15 * index.size);
+            let at = pos2(x, bottom + 1.5 + 1.15 * index.size);
             painter.text(at, Align2::CENTER_TOP, text, number.clone(), muted);
         }
         response.on_hover_text(format!("b_{k}(t) = {}", compact(value)));
     }
     let galleys = CAPTIONS.map(|words| painter.layout_no_wrap(words.to_owned(), caption.clone(), muted));
     if let Some(galley) = galleys.into_iter().find(|galley| galley.size().x + 4.0 <= rect.width()) {
-        painter.galley(rect.right_bottom() - vec2(2.0, 2.0) - galley.size(), galley, muted);
+        painter.galley(rect.right_bottom() - vec2(2.0, 0.0) - galley.size(), galley, muted);
     }
 }
 

@@ -17,6 +17,8 @@ use crate::figure::theme::Theme;
 const LONG_PATH: usize = 1000;
 /// Lines fainter than this may run through labels.
 const FAINT: u8 = 120;
+/// In pictures of more items the note of the parameter has its usual place.
+const MANY_ITEMS: usize = 2000;
 /// Side of the handle of the parameter, and type size of its note, in pt.
 const HANDLE: f64 = 13.0;
 const NOTE_SIZE: f64 = 12.0;
@@ -211,7 +213,10 @@ pub(super) fn arrange(
     let has_labels = |layer: &Layer| {
         priority(part_of(layer)).is_some() && layer.items.iter().any(|item| matches!(item, Item::Label(_)))
     };
-    if handle.is_none() && !picture.layers.iter().any(has_labels) {
+    let has_labels = picture.layers.iter().any(has_labels);
+    let count = || picture.layers.iter().map(|layer| layer.items.len()).sum::<usize>();
+    // Among thousands of marks the note of the parameter alone is not worth the search.
+    if !has_labels && (handle.is_none() || count() > MANY_ITEMS) {
         return arrangement;
     }
     let Occupied { mut page, mut marks } = occupied(picture, viewport);
@@ -279,32 +284,56 @@ pub(super) fn arrange(
     if let (Some(handle), Some(Some(Placed { low, .. }))) = (handle, placed[..of_notes].first()) {
         arrangement.notes.insert(handle.object, *low + NOTE_ROOM - on_page(handle.at));
     }
-    let mut gone = Vec::new();
+    // For each label that is taken out nothing, for each that lies on a line the box behind it.
+    let mut changes: Vec<(usize, usize, Option<PageBox>)> = Vec::new();
     let mut found = placed[of_notes..].iter();
     for (number, index, area_low) in places {
-        let spot = area_low.and_then(|area_low| Some((area_low, found.next().copied().flatten())));
+        let spot = area_low.and_then(|area_low| Some((area_low, found.next().copied()?)));
         let Some(Item::Label(label)) = picture.layers[number].items.get_mut(index) else { continue };
         match spot {
-            Some((area_low, Some(Placed { low, .. }))) => label.offset = low - area_low - on_page(label.at),
+            Some((area_low, Some(Placed { low, is_crossed, .. }))) => {
+                label.offset = low - area_low - on_page(label.at);
+                if is_crossed {
+                    let size = extent(label);
+                    changes.push((number, index, Some(PageBox { low, high: low + size.high - size.low })));
+                }
+            }
             Some((_, None)) => {
                 arrangement.left_out.push(label.text.clone());
-                gone.push((number, index));
+                changes.push((number, index, None));
             }
-            None => gone.push((number, index)),
+            None => changes.push((number, index, None)),
         }
     }
     for (number, index, area) in fixed {
         if page.is_free(&area) {
             page.block(area);
         } else {
-            gone.push((number, index));
+            changes.push((number, index, None));
         }
     }
-    gone.sort_unstable();
-    for (number, index) in gone.into_iter().rev() {
-        picture.layers[number].items.remove(index);
+    changes.sort_by_key(|&(number, index, _)| std::cmp::Reverse((number, index)));
+    for (number, index, area) in changes {
+        let items = &mut picture.layers[number].items;
+        match area {
+            None => {
+                items.remove(index);
+            }
+            Some(area) if picture.background.is_some() => {
+                items.insert(index, Item::Path(ground(area, viewport, theme)));
+            }
+            Some(_) => {}
+        }
     }
     arrangement
+}
+
+/// The ground behind a label, so that it can be read on a line.
+fn ground(area: PageBox, viewport: &Viewport, theme: &Theme) -> Path {
+    let corner = |x: f64, y: f64| viewport.center + (DVec2::new(x, y) - viewport.size * 0.5) / viewport.scale;
+    let PageBox { low, high } = area;
+    let corners = [(low.x, low.y), (high.x, low.y), (high.x, high.y), (low.x, high.y)];
+    Path::polygon(&corners.map(|(x, y)| corner(x, y)), None, Some(theme.background.with_opacity(0.7)))
 }
 
 fn is_inside(at: DVec2, viewport: &Viewport) -> bool {
