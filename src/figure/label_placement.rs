@@ -98,7 +98,7 @@ impl Page {
     /// An empty page of `size` pt.
     pub fn new(size: DVec2) -> Self {
         // A page of many metres gets no finer grid.
-        let count = |length: f64| (length / CELL).ceil().max(1.0).min(500.0) as usize;
+        let count = |length: f64| ((length / CELL).ceil() as usize).clamp(1, 500);
         let (columns, rows) = (count(size.x), count(size.y));
         Self {
             size,

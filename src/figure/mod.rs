@@ -2,6 +2,7 @@
 
 pub mod approximation;
 pub mod chart;
+mod chart_axis;
 pub mod clip;
 pub mod color_bar;
 pub mod color_map;

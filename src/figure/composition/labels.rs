@@ -284,8 +284,7 @@ pub(super) fn arrange(
     if let (Some(handle), Some(Some(Placed { low, .. }))) = (handle, placed[..of_notes].first()) {
         arrangement.notes.insert(handle.object, *low + NOTE_ROOM - on_page(handle.at));
     }
-    // For each label that is taken out nothing, for each that lies on a line the box behind it.
-    let mut changes: Vec<(usize, usize, Option<PageBox>)> = Vec::new();
+    let mut changes: Vec<(usize, usize, Change)> = Vec::new();
     let mut found = placed[of_notes..].iter();
     for (number, index, area_low) in places {
         let spot = area_low.and_then(|area_low| Some((area_low, found.next().copied()?)));
@@ -293,39 +292,58 @@ pub(super) fn arrange(
         match spot {
             Some((area_low, Some(Placed { low, is_crossed, .. }))) => {
                 label.offset = low - area_low - on_page(label.at);
-                if is_crossed {
-                    let size = extent(label);
-                    changes.push((number, index, Some(PageBox { low, high: low + size.high - size.low })));
-                }
+                let size = extent(label);
+                let area = PageBox { low, high: low + size.high - size.low };
+                let ground = is_crossed && picture.background.is_some();
+                changes.push((number, index, Change::Stays(ground.then_some(area))));
             }
             Some((_, None)) => {
                 arrangement.left_out.push(label.text.clone());
-                changes.push((number, index, None));
+                changes.push((number, index, Change::Goes));
             }
-            None => changes.push((number, index, None)),
+            None => changes.push((number, index, Change::Goes)),
         }
     }
     for (number, index, area) in fixed {
         if page.is_free(&area) {
             page.block(area);
         } else {
-            changes.push((number, index, None));
+            changes.push((number, index, Change::Goes));
         }
     }
+    let mut lifted: Vec<(String, Vec<Item>)> = Vec::new();
     changes.sort_by_key(|&(number, index, _)| std::cmp::Reverse((number, index)));
-    for (number, index, area) in changes {
-        let items = &mut picture.layers[number].items;
-        match area {
-            None => {
+    for (number, index, change) in changes {
+        let Layer { name, items } = &mut picture.layers[number];
+        let ground = match change {
+            Change::Goes => {
                 items.remove(index);
+                continue;
             }
-            Some(area) if picture.background.is_some() => {
-                items.insert(index, Item::Path(ground(area, viewport, theme)));
+            Change::Stays(area) => area.map(|area| Item::Path(ground(area, viewport, theme))),
+        };
+        match name.rsplit_once(": ") {
+            // These layers lie under the curve, where nobody could read a sentence.
+            Some((object, "distance tube" | "symmetry")) => {
+                let label = items.remove(index);
+                lifted.push((format!("{object}: notes"), ground.into_iter().chain([label]).collect()));
             }
-            Some(_) => {}
+            _ => items.splice(index..index, ground).for_each(drop),
         }
     }
+    for (name, items) in lifted.into_iter().rev() {
+        picture.push_layer(name, items);
+    }
+    picture.layers.retain(|layer| !layer.items.is_empty());
     arrangement
+}
+
+/// What becomes of a label.
+enum Change {
+    /// It is taken out.
+    Goes,
+    /// It is drawn, on a ground if a line runs through it.
+    Stays(Option<PageBox>),
 }
 
 /// The ground behind a label, so that it can be read on a line.
