@@ -4,6 +4,7 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use glam::DVec2;
 
@@ -16,7 +17,8 @@ use crate::app::workspace::Room;
 use crate::core::spline_curve::Nurbs;
 use crate::course::{Lesson, Stepper, Verdict};
 use crate::document::{
-    Approximation, Document, Edit, EditError, History, ObjectId, Outcome, ShapeChange, StepperKind, View,
+    Approximation, Document, Edit, EditError, History, Object, ObjectId, Outcome, ShapeChange, StepperKind,
+    View,
 };
 use crate::figure::theme::Theme;
 
@@ -320,6 +322,11 @@ impl Lab {
             self.selection = Selection { object: Some(object), ..Selection::default() };
             self.enter(room);
         }
+    }
+
+    /// The selected object, shared: it stays as it is while the document changes.
+    pub fn selected(&self) -> Option<Arc<Object>> {
+        self.selection.object.and_then(|id| self.history.document().object(id)).cloned()
     }
 
     /// The curve of the selected object.

@@ -20,6 +20,15 @@ const FLATNESS: f64 = 0.1;
 /// A cubic is halved at most this often: with culling 40 levels reach every zoom that f64 allows.
 const MAX_DEPTH: u32 = 40;
 
+/// Largest distance in pt between a painted polyline of many points and the same with points left out.
+const THINNED: f64 = 0.1;
+
+/// Polylines with fewer points are painted as they are.
+const FEW_POINTS: usize = 64;
+
+/// In a layer with more markers than this, those that would cover each other are left out.
+const MANY_MARKERS: usize = 600;
+
 /// Margin around the canvas, in pt, within which lines are still painted (wide strokes, round ends).
 const MARGIN: f64 = 40.0;
 
@@ -48,41 +57,151 @@ pub(crate) fn paint_picture(picture: &Picture, viewport: &Viewport, rect: Rect, 
     if let Some(background) = picture.background {
         painter.rect_filled(rect, 0.0, color32(background));
     }
-    for item in picture.layers.iter().flat_map(|layer| &layer.items) {
-        match item {
-            Item::Path(path) => paint_path(path, viewport, rect, &painter),
-            Item::Marker(marker) => paint_marker(marker, viewport, rect, &painter),
-            Item::Label(label) => paint_label(label, viewport, rect, &painter),
-            Item::Mesh(mesh) => paint_mesh(mesh, viewport, rect, &painter),
-            Item::Image(placed) => paint_image(placed, viewport, rect, &painter),
+    for layer in &picture.layers {
+        let mut places = (layer.items.len() > MANY_MARKERS).then(|| Places::new(rect));
+        // One after the other they would each ask for the list of shapes.
+        let mut shapes = Vec::new();
+        for item in &layer.items {
+            match item {
+                Item::Path(path) => paint_path(path, viewport, rect, &mut shapes),
+                Item::Marker(marker) => paint_marker(marker, viewport, rect, places.as_mut(), &mut shapes),
+                Item::Label(label) => {
+                    painter.extend(shapes.drain(..));
+                    paint_label(label, viewport, rect, &painter);
+                }
+                Item::Mesh(mesh) => shapes.push(mesh_shape(mesh, viewport, rect)),
+                Item::Image(placed) => {
+                    painter.extend(shapes.drain(..));
+                    paint_image(placed, viewport, rect, &painter);
+                }
+            }
         }
+        painter.extend(shapes);
     }
 }
 
-fn paint_path(path: &Path, viewport: &Viewport, rect: Rect, painter: &Painter) {
+/// Which places of the canvas have a marker: squares with sides of [`Places::SIDE`] pt.
+struct Places {
+    taken: Vec<bool>,
+    columns: usize,
+}
+
+impl Places {
+    /// Markers are larger: where one is left out, another covers its place.
+    const SIDE: f32 = 1.5;
+
+    fn new(rect: Rect) -> Self {
+        let count = |length: f32| (length.max(0.0) / Self::SIDE) as usize + 1;
+        let (columns, rows) = (count(rect.width()), count(rect.height()));
+        Self { taken: vec![false; columns * rows], columns }
+    }
+
+    /// Takes the place; `false` if it was taken before.
+    fn take(&mut self, at: Pos2, rect: Rect) -> bool {
+        let cell = (at - rect.min) / Self::SIDE;
+        if cell.x < 0.0 || cell.y < 0.0 || cell.x as usize >= self.columns {
+            return true;
+        }
+        let taken = self.taken.get_mut(cell.y as usize * self.columns + cell.x as usize);
+        taken.is_none_or(|taken| !std::mem::replace(taken, true))
+    }
+}
+
+fn paint_path(path: &Path, viewport: &Viewport, rect: Rect, shapes: &mut Vec<Shape>) {
     let page = DVec2::new(f64::from(rect.width()), f64::from(rect.height()));
+    // Many parts of one edge each, as the teeth of a comb are.
+    if path.fill.is_none()
+        && let Some(stroke) = path.stroke.as_ref().filter(|stroke| stroke.dashes.is_empty())
+        && let Some(edges) = single_edges(&path.segments)
+    {
+        let pen = PenStroke::new(stroke.width as f32, color32(stroke.color));
+        for [from, to] in edges {
+            let (from, to) = (viewport.page_from_world(from), viewport.page_from_world(to));
+            if let Some((enter, leave)) = clip_edge(from, to, DVec2::splat(-MARGIN), page + MARGIN)
+                .filter(|_| from.distance(to) > THINNED)
+            {
+                let ends = [enter, leave].map(|share| to_screen(from + (to - from) * share, rect));
+                shapes.push(Shape::line_segment(ends, pen));
+            }
+        }
+        return;
+    }
     for part in flatten(&path.segments, viewport, page) {
         if let Some(fill) = path.fill {
             let outline: Vec<Pos2> = part.iter().map(|&point| to_screen(point, rect)).collect();
-            painter.add(Shape::convex_polygon(outline, color32(fill), PenStroke::NONE));
+            shapes.push(Shape::convex_polygon(outline, color32(fill), PenStroke::NONE));
         }
         if let Some(stroke) = &path.stroke {
             let pen = PenStroke::new(stroke.width as f32, color32(stroke.color));
             for line in clip(&part, page) {
-                let points: Vec<Pos2> = line.iter().map(|&point| to_screen(point, rect)).collect();
+                let points: Vec<Pos2> =
+                    thinned(&line, THINNED).into_iter().map(|point| to_screen(point, rect)).collect();
                 if stroke.dashes.is_empty() {
-                    painter.add(Shape::line(points, pen));
+                    shapes.push(Shape::line(points, pen));
                 } else {
                     let (dashes, gaps): (Vec<f32>, Vec<f32>) = stroke
                         .dashes
                         .chunks(2)
                         .map(|pair| (pair[0] as f32, pair.get(1).copied().unwrap_or(pair[0]) as f32))
                         .unzip();
-                    painter.extend(Shape::dashed_line_with_offset(&points, pen, &dashes, &gaps, 0.0));
+                    shapes.extend(Shape::dashed_line_with_offset(&points, pen, &dashes, &gaps, 0.0));
                 }
             }
         }
     }
+}
+
+/// The edges of a path with at least two parts, each a single edge; `None` for other paths.
+fn single_edges(segments: &[Segment]) -> Option<Vec<[DVec2; 2]>> {
+    if segments.len() < 4 {
+        return None;
+    }
+    let (pairs, rest) = segments.as_chunks::<2>();
+    let edge = |pair: &[Segment; 2]| match *pair {
+        [Segment::Move(from), Segment::Line(to)] => Some([from, to]),
+        _ => None,
+    };
+    rest.is_empty().then(|| pairs.iter().map(edge).collect()).flatten()
+}
+
+/// The polyline without points that are within `tolerance` of what is left; both ends stay.
+///
+/// From the last point kept, the discs around the points behind it are seen under angles that all hold the next point kept.
+fn thinned(points: &[DVec2], tolerance: f64) -> Vec<DVec2> {
+    if points.len() < FEW_POINTS {
+        return points.to_vec();
+    }
+    let mut kept = vec![points[0]];
+    let (mut from, mut before) = (points[0], points[0]);
+    // The directions in which all discs are seen, from the right edge to the left one, and the farthest point.
+    let mut view: Option<(DVec2, DVec2)> = None;
+    let mut farthest: f64 = 0.0;
+    for &point in &points[1..] {
+        let mut way = point - from;
+        let mut length = way.length();
+        let fits = view.is_none_or(|(right, left)| right.perp_dot(way) >= 0.0 && way.perp_dot(left) >= 0.0);
+        if !(fits && length >= farthest - tolerance && length.is_finite()) && before != from {
+            kept.push(before);
+            (from, view, farthest) = (before, None, 0.0);
+            way = point - from;
+            length = way.length();
+        }
+        farthest = farthest.max(length);
+        if length > tolerance {
+            let sine = tolerance / length;
+            let (along, across) = (way * ((1.0 - sine * sine).sqrt() / length), way.perp() * (sine / length));
+            let (right, left) = (along - across, along + across);
+            view = Some(view.map_or((right, left), |(old_right, old_left)| {
+                (
+                    if old_right.perp_dot(right) > 0.0 { right } else { old_right },
+                    if left.perp_dot(old_left) > 0.0 { left } else { old_left },
+                )
+            }));
+        }
+        before = point;
+    }
+    kept.push(before);
+    kept
 }
 
 fn to_screen(page: DVec2, rect: Rect) -> Pos2 {
@@ -177,10 +296,16 @@ fn clip_edge(from: DVec2, to: DVec2, low: DVec2, high: DVec2) -> Option<(f64, f6
     (enter <= leave).then_some((enter, leave))
 }
 
-fn paint_marker(marker: &Marker, viewport: &Viewport, rect: Rect, painter: &Painter) {
+fn paint_marker(
+    marker: &Marker,
+    viewport: &Viewport,
+    rect: Rect,
+    places: Option<&mut Places>,
+    shapes: &mut Vec<Shape>,
+) {
     let center = screen_from_world(viewport, rect, marker.at);
     let half = 0.5 * marker.size as f32;
-    if !rect.expand(half + 4.0).contains(center) {
+    if !rect.expand(half + 4.0).contains(center) || places.is_some_and(|places| !places.take(center, rect)) {
         return;
     }
     let fill = marker.fill.map_or(Color32::TRANSPARENT, color32);
@@ -190,33 +315,35 @@ fn paint_marker(marker: &Marker, viewport: &Viewport, rect: Rect, painter: &Pain
         .map_or(PenStroke::NONE, |stroke| PenStroke::new(stroke.width as f32, color32(stroke.color)));
     let polygon = |corners: &[(f32, f32)]| {
         let corners = corners.iter().map(|&(x, y)| center + vec2(x, y) * half).collect();
-        painter.add(Shape::convex_polygon(corners, fill, pen));
+        Shape::convex_polygon(corners, fill, pen)
     };
     match marker.shape {
         MarkerShape::Disc => {
-            painter.circle(center, half, fill, pen);
+            shapes.push(epaint::CircleShape { center, radius: half, fill, stroke: pen }.into());
         }
-        MarkerShape::Square => polygon(&[(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]),
+        MarkerShape::Square => {
+            shapes.push(polygon(&[(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]));
+        }
         // A square of the given side on its tip is √2 times as wide.
         MarkerShape::Diamond => {
             let tip = std::f32::consts::SQRT_2;
-            polygon(&[(0.0, -tip), (tip, 0.0), (0.0, tip), (-tip, 0.0)]);
+            shapes.push(polygon(&[(0.0, -tip), (tip, 0.0), (0.0, tip), (-tip, 0.0)]));
         }
-        MarkerShape::Triangle => polygon(&[(0.0, -1.0), (0.87, 0.5), (-0.87, 0.5)]),
+        MarkerShape::Triangle => shapes.push(polygon(&[(0.0, -1.0), (0.87, 0.5), (-0.87, 0.5)])),
         MarkerShape::Cross => {
-            painter.line_segment([center - Vec2::splat(half), center + Vec2::splat(half)], pen);
-            painter.line_segment([center + vec2(-half, half), center + vec2(half, -half)], pen);
+            shapes.push(Shape::line_segment([center - Vec2::splat(half), center + Vec2::splat(half)], pen));
+            shapes.push(Shape::line_segment([center + vec2(-half, half), center + vec2(half, -half)], pen));
         }
     }
 }
 
-fn paint_mesh(mesh: &Mesh, viewport: &Viewport, rect: Rect, painter: &Painter) {
+fn mesh_shape(mesh: &Mesh, viewport: &Viewport, rect: Rect) -> Shape {
     let mut shape = epaint::Mesh::default();
     for (&point, &color) in mesh.points().iter().zip(mesh.colors()) {
         shape.colored_vertex(screen_from_world(viewport, rect, point), color32(color));
     }
     shape.indices = mesh.triangles().as_flattened().to_vec();
-    painter.add(shape);
+    shape.into()
 }
 
 /// The texture lives as long as the frame.
@@ -335,6 +462,42 @@ mod tests {
         assert!(
             clip(&[DVec2::new(-500.0, -500.0), DVec2::new(-500.0, 900.0)], page).is_empty(),
             "left of the page"
+        );
+    }
+
+    #[test]
+    fn a_thinned_line_stays_near_and_keeps_its_ends() {
+        // Waves, a straight part, and a part that runs back over itself.
+        let mut line: Vec<DVec2> =
+            (0..3000).map(|k| DVec2::new(0.1 * f64::from(k), 20.0 * (0.02 * f64::from(k)).sin())).collect();
+        line.extend((0..500).map(|k| DVec2::new(300.0, 0.3 * f64::from(k))));
+        line.extend((0..400).map(|k| DVec2::new(300.0, 150.0 - 0.3 * f64::from(k))));
+        let thin = thinned(&line, 0.1);
+        assert!(thin.len() < line.len() / 10, "{} of {} points are left", thin.len(), line.len());
+        assert_eq!((thin[0], thin[thin.len() - 1]), (line[0], line[line.len() - 1]), "the ends");
+        for point in &line {
+            let near = thin.windows(2).any(|edge| {
+                let run = edge[1] - edge[0];
+                let share = ((*point - edge[0]).dot(run) / run.length_squared()).clamp(0.0, 1.0);
+                point.distance(edge[0] + run * share) <= 0.15
+            });
+            assert!(near, "{point} has been cut off");
+        }
+        assert!(thin.contains(&DVec2::new(300.0, 0.3 * 499.0)), "the turn is kept");
+    }
+
+    #[test]
+    fn of_markers_at_one_place_one_is_painted() {
+        let rect = Rect::from_min_size(pos2(10.0, 20.0), vec2(100.0, 50.0));
+        let mut places = Places::new(rect);
+        assert!(
+            places.take(pos2(30.2, 40.2), rect) && !places.take(pos2(30.4, 40.3), rect),
+            "the same place"
+        );
+        assert!(places.take(pos2(35.0, 40.2), rect), "another place");
+        assert!(
+            places.take(pos2(5.0, 40.0), rect) && places.take(pos2(5.0, 40.0), rect),
+            "beside the canvas"
         );
     }
 }

@@ -16,7 +16,7 @@ use crate::exchange::pdf::write_pdf_pages;
 use crate::exchange::png::write_png;
 use crate::exchange::svg::write_svg;
 use crate::exchange::tikz::write_overlays;
-use crate::figure::composition::{Composition, compose_with, parameter_of};
+use crate::figure::composition::{Composition, Measurements, compose_with, parameter_of};
 use crate::figure::font_metrics::{FontFace, text_width};
 use crate::figure::formula;
 use crate::figure::picture::{Anchor, Item, Label, Path as Line, Picture, Viewport};
@@ -146,10 +146,11 @@ pub fn frame_pages(
         size: viewport.size + DVec2::Y * strip,
         ..*viewport
     };
+    let measurements = Measurements::default();
     let pages = texts.iter().enumerate().map(|(index, text)| {
         let choices = Composition { step: Some((object, story.drawing(index))), ..Composition::default() };
         // The scale of the axes stands at the edge of the picture, not of the page.
-        let mut picture = compose_with(document, view, theme, viewport, &choices);
+        let mut picture = compose_with(document, view, theme, viewport, &choices, &measurements);
         let number = format!("{} / {}", index + 1, frames.len());
         picture.push_layer("ground of the text", ground(&page, viewport.size.y, theme));
         picture.push_layer("text", text.items(&page, viewport.size.y, &number, theme));

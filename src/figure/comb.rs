@@ -33,6 +33,18 @@ pub struct CombSpan {
 /// `scale` is the length of a tooth at curvature 1, in world units. Teeth where the speed vanishes are left out, so that there
 /// may be fewer.
 pub fn curvature_comb(curve: &Nurbs<DVec2>, scale: f64, samples_per_span: usize) -> Vec<CombSpan> {
+    let breaks = curve.space().breaks();
+    let intervals: Vec<_> = breaks.windows(2).map(|ends| (ends[0], ends[1])).collect();
+    curvature_comb_over(curve, scale, samples_per_span, &intervals)
+}
+
+/// As [`curvature_comb`] over `intervals`, each of one or several whole knot intervals.
+pub fn curvature_comb_over(
+    curve: &Nurbs<DVec2>,
+    scale: f64,
+    samples_per_span: usize,
+    intervals: &[(f64, f64)],
+) -> Vec<CombSpan> {
     let count = samples_per_span.max(1);
     let first = curve.points()[0];
     let size = curve.points().iter().map(|&point| (point - first).norm()).fold(0.0, f64::max);
@@ -43,8 +55,11 @@ pub fn curvature_comb(curve: &Nurbs<DVec2>, scale: f64, samples_per_span: usize)
         for i in 0..=count {
             let t = a.mix(b, i as f64 / count as f64);
             let side = if i == 0 { Side::Right } else { Side::Left };
-            let Ok(derivatives) = curve.derivatives(t, 2, side) else { continue };
-            let [foot, velocity, acceleration] = derivatives[..] else { continue };
+            let mut derivatives = [DVec2::ZERO; 3];
+            if curve.derivatives_into(t, side, &mut derivatives).is_err() {
+                continue;
+            }
+            let [foot, velocity, acceleration] = derivatives;
             let speed = velocity.norm();
             let curvature = velocity.perp_dot(acceleration) / (speed * speed * speed);
             let is_defined = speed * (b - a) > SMALLEST_SPEED * size && curvature.is_finite();
@@ -57,7 +72,7 @@ pub fn curvature_comb(curve: &Nurbs<DVec2>, scale: f64, samples_per_span: usize)
         }
         span
     };
-    curve.space().breaks().windows(2).map(|ends| comb_over((ends[0], ends[1]))).collect()
+    intervals.iter().copied().map(comb_over).collect()
 }
 
 /// The largest `|κ|` of a comb, for the legend of its scale; 0 for an empty one.

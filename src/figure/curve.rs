@@ -35,9 +35,16 @@ pub struct SpanPath {
 /// not a number, counts as that; no piece becomes more than 4096 cubics.
 pub fn curve_path(curve: &Nurbs<DVec2>, tolerance: f64) -> Vec<Segment> {
     let mut path: Vec<Segment> = Vec::new();
-    for span in curve_span_paths(curve, tolerance) {
-        let skipped = usize::from(!path.is_empty());
-        path.extend(span.segments.into_iter().skip(skipped));
+    if curve.is_polynomial() && curve.degree() <= 3 {
+        // All pieces in one sweep over the knots.
+        let pieces = curve.without_weights().bezier_pieces();
+        path.push(Segment::Move(pieces.points()[0]));
+        path.extend(pieces.iter().filter_map(|(_, points)| exact_segment(points)));
+    } else {
+        for span in curve_span_paths(curve, tolerance) {
+            let skipped = usize::from(!path.is_empty());
+            path.extend(span.segments.into_iter().skip(skipped));
+        }
     }
     if curve.space().is_periodic()
         && let Some(&Segment::Move(start)) = path.first()
@@ -73,19 +80,13 @@ fn span_path(curve: &Nurbs<DVec2>, span: usize, interval: (f64, f64), tolerance:
     let is_polynomial = (span - n..span).all(|k| weight_of(k).to_bits() == weight_of(k + 1).to_bits());
     if is_polynomial && n <= 3 {
         let points = bezier_points(curve.without_weights(), span, interval);
-        return match *points.as_slice() {
-            [a, b] => vec![Segment::Move(a), Segment::Line(b)],
-            [a, b, c] => {
-                vec![
-                    Segment::Move(a),
-                    Segment::Cubic(a + (b - a) * (2.0 / 3.0), c + (b - c) * (2.0 / 3.0), c),
-                ]
-            }
-            [a, b, c, d] => vec![Segment::Move(a), Segment::Cubic(b, c, d)],
-            _ => Vec::new(),
-        };
+        return [Segment::Move(points[0])].into_iter().chain(exact_segment(&points)).collect();
     }
     let whole = RationalPiece::new(curve, span, interval);
+    // Piece and chord both lie in the disc around the start that holds the control points.
+    if 2.0 * whole.size() <= tolerance {
+        return vec![Segment::Move(whole.points[0]), Segment::Line(whole.points[n])];
+    }
     let tolerance = tolerance.max(SMALLEST_TOLERANCE * whole.size());
     let mut segments = vec![Segment::Move(whole.points[0])];
     // A stack, the leftmost piece on top: pieces not yet drawn, and how often each was halved.
@@ -103,6 +104,16 @@ fn span_path(curve: &Nurbs<DVec2>, span: usize, interval: (f64, f64), tolerance:
         }
     }
     segments
+}
+
+/// A polynomial piece of degree at most 3 behind its start.
+fn exact_segment(points: &[DVec2]) -> Option<Segment> {
+    match *points {
+        [_, b] => Some(Segment::Line(b)),
+        [a, b, c] => Some(Segment::Cubic(a + (b - a) * (2.0 / 3.0), c + (b - c) * (2.0 / 3.0), c)),
+        [_, b, c, d] => Some(Segment::Cubic(b, c, d)),
+        _ => None,
+    }
 }
 
 /// The Bezier points over `interval`, inside knot interval number `span`: the blossom at `(a, …, a, b, …, b)`.

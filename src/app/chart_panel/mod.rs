@@ -128,8 +128,10 @@ fn header(lab: &mut Lab, ui: &mut Ui, object: ObjectId, samples: &CurveSamples) 
             ui.spacing_mut().item_spacing.x = 3.0;
         }
         tabs(lab, ui);
-        if let Some((curve, t)) = lab.curve().cloned().zip(lab.parameter(object)) {
-            parameter(lab, ui, object, &curve, t);
+        let selected = lab.selected();
+        let curve = selected.as_ref().and_then(|found| found.curve());
+        if let Some((curve, t)) = curve.zip(lab.parameter(object)) {
+            parameter(lab, ui, object, curve, t);
         }
         ui.separator();
         ui.spacing_mut().item_spacing.x = 3.0;

@@ -24,7 +24,8 @@ use crate::app::painter::{
 use crate::app::side_rooms;
 use crate::document::{Edit, ObjectId};
 use crate::figure::composition::{
-    Arrangement, Composition, GRID, LabelMemory, StepDrawing, compose_arranged, short_number,
+    Arrangement, Composition, GRID, LabelMemory, Measurements, StepDrawing, compose_arranged, left_out,
+    short_number,
 };
 use crate::figure::picture::Viewport;
 
@@ -47,6 +48,7 @@ pub(crate) struct Canvas {
     /// Where the menu was asked for.
     menu_place: DVec2,
     trees: Trees,
+    measurements: Measurements,
     panning: bool,
     wheel: Option<WheelWeight>,
     /// Where the labels of the last frame stand.
@@ -143,6 +145,11 @@ impl Canvas {
     /// Where a world point is on the screen.
     pub(crate) fn screen_from_world(&self, world: DVec2, lab: &Lab) -> Option<Pos2> {
         self.rect.map(|rect| screen_from_world(&viewport(lab), rect, world))
+    }
+
+    /// What is not drawn of the selected curve because too much of it is in view.
+    pub(super) fn left_out(lab: &Lab) -> Option<String> {
+        left_out(lab.selected()?.as_ref(), &viewport(lab))
     }
 
     /// Brings all objects into the canvas.
@@ -293,7 +300,7 @@ impl Canvas {
     }
 
     /// How many labels had no room.
-    pub(super) fn left_out(&self) -> usize {
+    pub(super) fn labels_without_room(&self) -> usize {
         self.labels.left_out.len()
     }
 
@@ -305,7 +312,8 @@ impl Canvas {
         let choices =
             Composition { step: step(lab), handle: lab.selection.object, former, ..Composition::default() };
         let document = lab.history.document();
-        let (mut picture, labels) = compose_arranged(document, &lab.view, &lab.theme, viewport, &choices);
+        let (mut picture, labels) =
+            compose_arranged(document, &lab.view, &lab.theme, viewport, &choices, &self.measurements);
         self.labels = labels;
         side_rooms::lay_over(side_rooms::overlay(lab, viewport), &mut picture);
         paint_picture(&picture, viewport, rect, &painter);

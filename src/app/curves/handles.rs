@@ -8,6 +8,7 @@ use glam::DVec2;
 use crate::app::curves::weight_handles::{edge_end, ring_place, weight_points};
 use crate::app::lab::{Hovered, Lab};
 use crate::app::painter::{color32, paint_note, screen_from_world};
+use crate::core::bspline::MAX_DEGREE;
 use crate::core::spline_curve::Nurbs;
 use crate::document::Object;
 use crate::figure::composition::{Arrangement, short_number};
@@ -29,15 +30,16 @@ struct Pull {
 
 fn pull(curve: &Nurbs<DVec2>, index: usize) -> Option<Pull> {
     let (left, right) = curve.space().parameter_interval();
-    let greville = *curve.space().greville_abscissae().get(index)?;
+    let weight = *curve.weights().get(index)?;
+    let greville = curve.space().greville_abscissa(index);
     let parameter = if curve.space().is_periodic() { greville } else { greville.clamp(left, right) };
-    let (span, x) = curve.space().span_on_side(parameter, crate::core::bspline::Side::Right).ok()?;
-    let mut weights = vec![0.0; curve.space().dimension()];
-    weights[index] = 1.0;
-    let influence =
-        crate::core::bspline::Spline::new(curve.space().clone(), weights).ok()?.evaluate_in_span(span, x);
-    let weight = curve.weights()[index];
-    let lifted = curve.homogeneous().evaluate_in_span(span, x);
+    let mut values = [0.0; MAX_DEGREE + 1];
+    let values = &mut values[..=curve.degree()];
+    let first = curve.space().write_active_basis(parameter, values).ok()?;
+    // On a short closed curve the point may have several of them.
+    let own = |&(j, _): &(usize, &f64)| curve.space().coefficient_index(first + j) == index;
+    let influence: f64 = values.iter().enumerate().filter(own).map(|(_, value)| value).sum();
+    let lifted = curve.homogeneous().evaluate(parameter).ok()?;
     let rest = lifted.z - weight * influence;
     let point = curve.points()[index];
     let numerator = lifted.truncate() - point * (weight * influence);

@@ -96,7 +96,10 @@ impl Workspace for Curves {
 
     fn status(&self, lab: &Lab) -> String {
         let scale = format!("{} px per unit", short_number(lab.view.camera.scale));
-        match self.canvas.left_out() {
+        if let Some(words) = Canvas::left_out(lab) {
+            return format!("{words}   {scale}");
+        }
+        match self.canvas.labels_without_room() {
             0 => scale,
             1 => format!("1 label without room: zoom in or point at its mark   {scale}"),
             count => format!("{count} labels without room: zoom in or point at their marks   {scale}"),

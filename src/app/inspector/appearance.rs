@@ -69,7 +69,7 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, subject: &Subject) {
             });
         combo.response.accessible_name("Labels of the control points");
     });
-    if display != subject.display {
+    if display != *subject.display {
         lab.edit(Edit::SetDisplay { object, display });
         return;
     }
@@ -94,7 +94,7 @@ fn boxes(salt: &str, choices: &[Choice], display: &mut CurveDisplay, ui: &mut Ui
 }
 
 fn numbers(lab: &mut Lab, ui: &mut Ui, subject: &Subject) {
-    let (object, display) = (subject.object, &subject.display);
+    let (object, display) = (subject.object, subject.display);
     let set = |display: CurveDisplay| Edit::SetDisplay { object, display };
     ui.horizontal(|ui| {
         ui.label("Line width");

@@ -57,7 +57,7 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, subject: &Subject, piece: &Ration
 
 /// The middle weight of a single arc in standard form, `w₁/√(w₀w₂)`, to be typed and dragged.
 fn weight(lab: &mut Lab, ui: &mut Ui, subject: &Subject) {
-    let (object, curve) = (subject.object, &subject.curve);
+    let (object, curve) = (subject.object, subject.curve);
     let (&[a, b, c], &[u, v, w]) = (curve.points(), curve.weights()) else { return };
     if curve.space().is_periodic() {
         return;

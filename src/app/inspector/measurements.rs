@@ -30,7 +30,7 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, subject: &Subject) {
             lab.set_parameter(object, to);
         }
         ui.end_row();
-        for line in lines(&subject.curve, t) {
+        for line in lines(subject.curve, t) {
             ui.label(line.name).on_hover_text(line.hint);
             match line.numbers {
                 Ok(numbers) => copyable(lab, ui, line.name, &numbers),

@@ -19,24 +19,19 @@ pub(crate) use measurements::copyable;
 
 /// The selected curve, as it was at the beginning of the frame.
 #[derive(Clone, Debug)]
-struct Subject {
+struct Subject<'a> {
     object: ObjectId,
-    name: String,
-    display: CurveDisplay,
-    curve: Nurbs<DVec2>,
+    name: &'a str,
+    display: &'a CurveDisplay,
+    curve: &'a Nurbs<DVec2>,
 }
 
 /// Shows the inspector.
 pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
-    let subject = lab.selection.object.and_then(|id| {
-        let document = lab.history.document();
-        let object = document.object(id)?;
-        Some(Subject {
-            object: id,
-            name: object.name.clone(),
-            display: object.curve_display()?.clone(),
-            curve: object.curve()?.clone(),
-        })
+    let selected = lab.selected();
+    let subject = selected.as_ref().and_then(|object| {
+        let (display, curve) = (object.curve_display()?, object.curve()?);
+        Some(Subject { object: object.id, name: &object.name, display, curve })
     });
     let Some(subject) = subject else {
         ui.add_space(8.0);
@@ -51,7 +46,7 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
         section(ui, "Knots", true, |ui| knots::show(lab, ui, &subject));
         section(ui, "Shown", true, |ui| appearance::show(lab, ui, &subject));
         section(ui, "At the parameter t", true, |ui| measurements::show(lab, ui, &subject));
-        let at_parameter = lab.parameter(subject.object).and_then(|t| conic::piece(&subject.curve, t));
+        let at_parameter = lab.parameter(subject.object).and_then(|t| conic::piece(subject.curve, t));
         if let Some(piece) = at_parameter {
             section(ui, "Conic at t", true, |ui| conic::show(lab, ui, &subject, &piece));
         }

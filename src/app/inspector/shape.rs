@@ -16,7 +16,7 @@ const HIGHEST_DEGREE: usize = 12;
 pub(super) fn show(lab: &mut Lab, ui: &mut Ui, subject: &Subject) {
     let object = subject.object;
     let named = |text: &str| if text.trim().is_empty() { Err("a name is needed".to_owned()) } else { Ok(()) };
-    if let Some(name) = TextField::new("Name", &subject.name).show(ui, ("name", object), named) {
+    if let Some(name) = TextField::new("Name", subject.name).show(ui, ("name", object), named) {
         lab.edit(Edit::RenameObject { object, name: name.trim().to_owned() });
     }
     swatches(lab, ui, subject);

@@ -1,5 +1,6 @@
 //! The whole curve in numbers, and the joint with its nearest neighbour.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use eframe::egui::{Grid, Id, RichText, Ui};
@@ -17,11 +18,54 @@ use crate::figure::composition::{MANY_FOR_LOOKS, probe, probe_ends};
 /// A name, a hint, and numbers or a sentence.
 type Row = (&'static str, String, Result<Vec<f64>, String>);
 
-/// What was measured, for exactly these objects: an object that is edited is another one.
+/// What was measured of a curve, and where it meets which others: an object that is edited is another one, and only what it has part in is measured again.
 #[derive(Clone)]
 struct Measured {
-    objects: Arc<[Arc<Object>]>,
+    object: Arc<Object>,
     rows: Arc<[Row]>,
+    joints: Arc<[(Arc<Object>, Option<Joint>)]>,
+}
+
+impl Measured {
+    /// The numbers of `object` beside `objects`, taken from `known` where that still holds.
+    fn new(object: &Arc<Object>, objects: &[Arc<Object>], known: Option<Self>) -> Option<Self> {
+        let (curve, display) = (object.curve()?, object.curve_display()?);
+        let known = known.filter(|known| Arc::ptr_eq(&known.object, object));
+        let others = || objects.iter().filter(|other| other.id != object.id && other.visible);
+        if let Some(known) = &known
+            && known.joints.len() == others().count()
+            && known.joints.iter().zip(others()).all(|((a, _), b)| Arc::ptr_eq(a, b))
+        {
+            return Some(known.clone());
+        }
+        let before: HashMap<*const Object, Option<Joint>> = known
+            .iter()
+            .flat_map(|known| known.joints.iter())
+            .map(|(other, joint)| (Arc::as_ptr(other), *joint))
+            .collect();
+        let joint = |other: &Arc<Object>| {
+            before
+                .get(&Arc::as_ptr(other))
+                .copied()
+                .unwrap_or_else(|| other.curve().and_then(|other| curve.joint(other).ok()?))
+        };
+        let joints = others().map(|other| (Arc::clone(other), joint(other))).collect();
+        let rows = known.map_or_else(
+            || {
+                let mut rows = rows(curve);
+                if display.probe_line
+                    && let Ok(found) = probe(curve, probe_ends(curve, display))
+                {
+                    let hint = "Crossings of the probe line with curve and control polygon".to_owned();
+                    let counts = vec![found.curve.len() as f64, found.polygon as f64];
+                    rows.push(("Probe line", hint, Ok(counts)));
+                }
+                rows.into()
+            },
+            |known| known.rows,
+        );
+        Some(Self { object: Arc::clone(object), rows, joints })
+    }
 }
 
 /// Shows the numbers; they are measured anew only when an object has changed.
@@ -32,26 +76,14 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, subject: &Subject) {
         return;
     }
     let id = Id::unique("whole curve").with(subject.object);
-    let objects = lab.history.document().objects();
-    let same = |known: &Measured| {
-        known.objects.len() == objects.len()
-            && known.objects.iter().zip(objects).all(|(a, b)| Arc::ptr_eq(a, b))
-    };
-    let known = ui.data(|data| data.get_temp::<Measured>(id)).filter(same);
-    let measured = known.unwrap_or_else(|| {
-        let mut rows = rows(&subject.curve);
-        if subject.display.probe_line
-            && let Ok(found) = probe(&subject.curve, probe_ends(&subject.curve, &subject.display))
-        {
-            let hint = "Crossings of the probe line with curve and control polygon".to_owned();
-            rows.push(("Probe line", hint, Ok(vec![found.curve.len() as f64, found.polygon as f64])));
-        }
-        rows.extend(joint_rows(objects, subject));
-        Measured { objects: objects.into(), rows: rows.into() }
-    });
+    let document = lab.history.document();
+    let known = ui.data(|data| data.get_temp::<Measured>(id));
+    let measured =
+        document.object(subject.object).and_then(|object| Measured::new(object, document.objects(), known));
+    let Some(measured) = measured else { return };
     ui.data_mut(|data| data.insert_temp(id, measured.clone()));
     Grid::new("whole curve").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
-        for (name, hint, numbers) in measured.rows.iter() {
+        for (name, hint, numbers) in measured.rows.iter().chain(&joint_rows(&measured.joints)) {
             ui.label(*name).on_hover_text(hint);
             match numbers {
                 Ok(numbers) => copyable(lab, ui, name, numbers),
@@ -104,12 +136,8 @@ fn signed_area(curve: &Nurbs<DVec2>) -> f64 {
 }
 
 /// The joint with the open curve whose end is nearest.
-fn joint_rows(objects: &[Arc<Object>], subject: &Subject) -> Vec<Row> {
-    let others = objects.iter().filter(|object| object.id != subject.object && object.visible);
-    let joints = others.filter_map(|other| {
-        let joint = subject.curve.joint(other.curve()?).ok()??;
-        Some((other.name.clone(), joint))
-    });
+fn joint_rows(joints: &[(Arc<Object>, Option<Joint>)]) -> Vec<Row> {
+    let joints = joints.iter().filter_map(|(other, joint)| Some((&other.name, (*joint)?)));
     let Some((name, joint)) = joints.min_by(|a, b| a.1.gap.total_cmp(&b.1.gap)) else { return Vec::new() };
     let Joint { at_end, at_other_end, gap, angle, curvature, first, second } = joint;
     let word = |at_end: bool| if at_end { "end" } else { "start" };

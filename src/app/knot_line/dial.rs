@@ -98,12 +98,17 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, id: Id, scene: &Scene, rect: Rect
     let (left, right) = scene.curve.space().parameter_interval();
     let mut last = f64::NEG_INFINITY;
     let mut last_label = f64::NEG_INFINITY;
+    let mut last_tick = f64::NEG_INFINITY;
     for stack in stacks(scene.curve.space(), left, right) {
         if knots::is_ghost(scene.curve.space(), stack.first) {
             continue;
         }
         let apart = (stack.value - last) / ring.per_pixel();
         if apart < f64::from(CLOSEST_HANDLES) && !hand.holds(&stack) {
+            if (stack.value - last_tick) / ring.per_pixel() < 1.5 {
+                continue;
+            }
+            last_tick = stack.value;
             let ends =
                 [ring.place(stack.value, ring.radius - 3.0), ring.place(stack.value, ring.radius + 3.0)];
             ui.painter().line_segment(ends, Stroke::new(1.0, color32(lab.theme.axis)));
@@ -190,7 +195,7 @@ fn functions(lab: &Lab, ui: &Ui, scene: &Scene, ring: &Ring) {
     let mut pieces: Vec<(usize, Vec<Pos2>)> = Vec::new();
     for i in 0..=samples {
         let t = left + ring.period * (i as f64 / samples as f64);
-        let active = basis::active(&scene.curve, t);
+        let active = basis::active(scene.curve, t);
         let mut seen = vec![false; count];
         for (&k, &value) in active.coefficients.iter().zip(&active.values) {
             if !seen[k] {
@@ -251,7 +256,7 @@ fn function_at(scene: &Scene, ring: &Ring, at: Pos2) -> Option<usize> {
     if scene.curve.points().len() > MOST_FUNCTIONS {
         return None;
     }
-    let active = basis::active(&scene.curve, inside(scene, ring.parameter(at)));
+    let active = basis::active(scene.curve, inside(scene, ring.parameter(at)));
     let from_center = at.distance(ring.center);
     let distance = |value: f64| (ring.radius * (1.0 - HEIGHT * value as f32) - from_center).abs();
     let values = active.coefficients.iter().zip(&active.values);

@@ -31,9 +31,9 @@ const KNOT_STRIP: f32 = 46.0;
 
 /// What all parts of one frame of the knot line need.
 #[derive(Clone, Debug)]
-struct Scene {
+struct Scene<'a> {
     object: ObjectId,
-    curve: Nurbs<DVec2>,
+    curve: &'a Nurbs<DVec2>,
     /// The parameter.
     t: f64,
     axis: Axis,
@@ -46,7 +46,7 @@ struct Scene {
     busy: bool,
 }
 
-impl Scene {
+impl Scene<'_> {
     /// Screen y of a function value.
     fn y(&self, value: f64) -> f32 {
         let height = self.plot.height() - 6.0;
@@ -75,7 +75,8 @@ impl Scene {
 
 /// Shows the knot line of the selected curve.
 pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
-    let Some((object, curve)) = lab.selection.object.zip(lab.curve().cloned()) else {
+    let selected = lab.selected();
+    let Some((object, curve)) = selected.as_ref().and_then(|found| Some((found.id, found.curve()?))) else {
         ui.horizontal(|ui| chart_panel::tabs(lab, ui));
         ui.centered_and_justified(|ui| {
             ui.label(RichText::new("Select a curve to see its knots and B-splines").weak());
@@ -86,7 +87,7 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
     builder::follow_panel(lab);
     let id = ui.make_persistent_id("knot line axis").with(object);
     let zoomed = ui.data(|data| data.get_temp::<bool>(id.with("zoomed"))).unwrap_or(false);
-    header::show(lab, ui, object, &curve, t, zoomed.then_some(id));
+    header::show(lab, ui, object, curve, t, zoomed.then_some(id));
     actions::arrows(lab, ui);
     builder::keys(lab, ui, curve.points().len(), curve.degree());
 
@@ -95,13 +96,14 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
         return;
     }
     // What the row above has just done counts.
-    let Some(curve) = lab.curve().cloned() else { return };
+    let selected = lab.selected();
+    let Some(curve) = selected.as_ref().and_then(|found| found.curve()) else { return };
     let Some(t) = lab.parameter(object) else { return };
     let building = lab.knots.builder.is_some();
     // The builder needs the whole width.
     let dial_width = dial::width(whole.size(), curve.space().is_periodic() && !building);
     let area = Rect::from_min_max(whole.min + vec2(dial_width, 0.0), whole.max);
-    let active = basis::active(&curve, t);
+    let active = basis::active(curve, t);
     let bars_width = if building {
         0.0
     } else {

@@ -25,7 +25,7 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, scene: &Scene) {
         cursor(lab, ui, scene);
         return;
     }
-    let (graphs, too_many) = basis::graphs(&scene.curve, &scene.axis, scene.t);
+    let (graphs, too_many) = basis::graphs(scene.curve, &scene.axis, scene.t);
     paint_graphs(lab, ui, scene, &graphs);
     if too_many {
         let text = format!(
@@ -88,7 +88,7 @@ fn function_under(scene: &Scene, response: &Response) -> Option<usize> {
     let pointer = response.hover_pos().filter(|&at| scene.plot.contains(at))?;
     let parameter = scene.axis.parameter(pointer.x);
     let parameter = scene.curve.space().reduce(parameter).ok()?;
-    let active = basis::active(&scene.curve, parameter);
+    let active = basis::active(scene.curve, parameter);
     let distance = |value: f64| (scene.y(value) - pointer.y).abs();
     active
         .coefficients

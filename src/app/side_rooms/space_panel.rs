@@ -172,7 +172,8 @@ fn announce(ui: &Ui, rect: Rect, pages: &[Option<Pos2>]) {
 
 /// The point at t in both ways of writing, and the weights.
 fn numbers(lab: &mut Lab, ui: &mut Ui, object: ObjectId, t: f64) {
-    let Some(curve) = lab.curve().cloned() else { return };
+    let selected = lab.selected();
+    let Some(curve) = selected.as_ref().and_then(|found| found.curve()) else { return };
     if let Ok(at) = curve.homogeneous().evaluate(t) {
         Grid::new("both ways").num_columns(2).spacing([8.0, 2.0]).show(ui, |ui| {
             let ways =

@@ -19,13 +19,14 @@ const FRAME_SECONDS: f64 = 1.6;
 
 /// Shows the panel.
 pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
-    let Some((object, curve)) = lab.selection.object.zip(lab.curve().cloned()) else {
+    let selected = lab.selected();
+    let Some((object, curve)) = selected.as_ref().and_then(|found| Some((found.id, found.curve()?))) else {
         ui.add_space(8.0);
         ui.label(RichText::new("Select a curve to step through an algorithm on it.").weak());
         return;
     };
     choices::algorithm(lab, ui);
-    choices::more(lab, ui, &curve);
+    choices::more(lab, ui, curve);
     let stepper = match lab.told_scheme() {
         Some(Ok(stepper)) => stepper,
         told => {
@@ -34,7 +35,7 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
             if let Some(Err(reason)) = told {
                 formula_view::rich_paragraph(ui, &reason);
             }
-            choices::instead(lab, ui, &curve);
+            choices::instead(lab, ui, curve);
             parameter(lab, ui, object);
             return;
         }

@@ -8,12 +8,14 @@
 //!
 //! Course: sections 4.4 and 4.6.
 
+use std::sync::Arc;
+
 use crate::core::bspline::error::{Side, SplineError};
 
 /// The highest degree of a spline. A constant, so that evaluation can work on the stack.
 pub const MAX_DEGREE: usize = 25;
 
-/// The splines of one degree over one knot sequence, open or periodic; valid by construction.
+/// The splines of one degree over one knot sequence, open or periodic; valid by construction. Copies share the knots.
 ///
 /// ```
 /// use spline_lab::core::bspline::{EndKnots, SplineSpace};
@@ -29,7 +31,7 @@ pub const MAX_DEGREE: usize = 25;
 pub struct SplineSpace {
     degree: usize,
     /// The knots used for evaluation: as given if open, unrolled if periodic.
-    knots: Vec<f64>,
+    knots: Arc<[f64]>,
     period: Option<Period>,
 }
 
@@ -37,7 +39,7 @@ pub struct SplineSpace {
 struct Period {
     length: f64,
     /// `ξ₀ ≤ … ≤ ξₘ₋₁ < ξ₀ + length`.
-    knots: Vec<f64>,
+    knots: Arc<[f64]>,
     /// Index, at most 0 or above it, of the first unrolled knot: `μ − 1 − n`.
     first: isize,
 }
@@ -83,7 +85,7 @@ impl SplineSpace {
             let (side, value) = (Some(Side::Right), knots[dimension]);
             return Err(SplineError::KnotsNotRegular { side, value, dimension, degree });
         }
-        Ok(Self { degree, knots, period: None })
+        Ok(Self { degree, knots: knots.into(), period: None })
     }
 
     /// The periodic space of `degree` with the given `period` and the `M ≥ 1` knots of one period.
@@ -121,7 +123,8 @@ impl SplineSpace {
         }
         check_nondecreasing(&unrolled)?;
         check_multiplicities(degree, &unrolled)?;
-        Ok(Self { degree, knots: unrolled, period: Some(Period { length: period, knots, first }) })
+        let period = Some(Period { length: period, knots: knots.into(), first });
+        Ok(Self { degree, knots: unrolled.into(), period })
     }
 
     /// The degree `n ≥ 1`.
@@ -189,17 +192,15 @@ impl SplineSpace {
     ///
     /// Course: section 4.3.
     pub fn greville_abscissae(&self) -> Vec<f64> {
-        (0..self.dimension())
-            .map(|k| {
-                // Averaging the distances from the first knot avoids overflow and keeps n-fold knots exact.
-                let first = self.knot(k as isize + 1).unwrap_or(f64::NAN);
-                let sum: f64 = (1..=self.degree)
-                    .filter_map(|i| self.knot((k + i) as isize))
-                    .map(|knot| knot - first)
-                    .sum();
-                first + sum / self.degree as f64
-            })
-            .collect()
+        (0..self.dimension()).map(|k| self.greville_abscissa(k)).collect()
+    }
+
+    /// The Greville abscissa of coefficient `k < dimension`.
+    pub fn greville_abscissa(&self, k: usize) -> f64 {
+        // Averaging the distances from the first knot avoids overflow and keeps n-fold knots exact.
+        let first = self.knot(k as isize + 1).unwrap_or(f64::NAN);
+        let inner = (1..=self.degree).filter_map(|i| self.knot((k + i) as isize));
+        first + inner.map(|knot| knot - first).sum::<f64>() / self.degree as f64
     }
 
     /// The distinct knots of D, ends included, with their multiplicities in the given sequence.

@@ -5,7 +5,8 @@ use glam::DVec2;
 use crate::core::bspline::Side;
 use crate::core::spline_curve::Nurbs;
 use crate::document::{CurveDisplay, PointLabels};
-use crate::figure::comb::curvature_comb;
+use crate::figure::comb::curvature_comb_over;
+use crate::figure::composition::crowd::Crowd;
 use crate::figure::curve::{curve_path, curve_span_paths};
 use crate::figure::picture::{
     Anchor, Color, Item, Label, Marker, MarkerShape, Path, Segment, Stroke, Viewport,
@@ -14,9 +15,6 @@ use crate::figure::theme::Theme;
 
 /// Largest distance, in pt, between a drawn curve and the exact one.
 const TOLERANCE: f64 = 0.02;
-
-/// Above this number of control points labels and single markers would only be a smear.
-pub(super) const MANY_POINTS: usize = 2000;
 
 /// The colour of an object.
 pub(super) fn color(display: &CurveDisplay, theme: &Theme) -> Color {
@@ -53,9 +51,21 @@ pub(super) fn polygon(curve: &Nurbs<DVec2>, theme: &Theme) -> Vec<Item> {
     vec![Item::Path(path)]
 }
 
-pub(super) fn points(curve: &Nurbs<DVec2>, display: &CurveDisplay, theme: &Theme) -> Vec<Item> {
-    let size = if curve.points().len() > MANY_POINTS { 3.0 } else { 9.0 } * theme.stroke_scale.sqrt();
+pub(super) fn points(
+    curve: &Nurbs<DVec2>,
+    display: &CurveDisplay,
+    theme: &Theme,
+    crowd: &Crowd,
+) -> Vec<Item> {
     let main = color(display, theme);
+    if crowd.dots() {
+        let dot = |&at: &DVec2| {
+            let size = 4.2 * theme.stroke_scale.sqrt();
+            Item::Marker(Marker { at, shape: MarkerShape::Disc, size, fill: Some(main), stroke: None })
+        };
+        return curve.points().iter().filter(|at| crowd.sees(**at)).map(dot).collect();
+    }
+    let size = 9.0 * theme.stroke_scale.sqrt();
     let marker = |(&at, &weight): (&DVec2, &f64)| {
         // A heavier point is a larger disc; the logarithm keeps very large weights on the sheet.
         let grown = size * (1.0 + 0.18 * weight.ln().clamp(-2.5, 4.0));
@@ -67,16 +77,19 @@ pub(super) fn points(curve: &Nurbs<DVec2>, display: &CurveDisplay, theme: &Theme
             stroke: Some(Stroke::solid(main, 1.8 * theme.stroke_scale)),
         })
     };
-    curve.points().iter().zip(curve.weights()).map(marker).collect()
+    curve.points().iter().zip(curve.weights()).filter(|(at, _)| crowd.sees(**at)).map(marker).collect()
 }
 
-pub(super) fn knots(curve: &Nurbs<DVec2>, display: &CurveDisplay, theme: &Theme) -> Vec<Item> {
-    let distinct = curve.space().distinct_knots();
-    if distinct.len() > MANY_POINTS {
+pub(super) fn knots(curve: &Nurbs<DVec2>, display: &CurveDisplay, theme: &Theme, crowd: &Crowd) -> Vec<Item> {
+    if crowd.dots() {
         return Vec::new();
     }
+    let distinct = curve.space().distinct_knots();
     let main = color(display, theme);
     let mark = |knot: &crate::core::bspline::DistinctKnot| {
+        if !crowd.sees_near(curve, knot.value) {
+            return None;
+        }
         let at = curve.evaluate(knot.value).ok()?;
         Some(Item::Marker(Marker {
             at,
@@ -89,8 +102,13 @@ pub(super) fn knots(curve: &Nurbs<DVec2>, display: &CurveDisplay, theme: &Theme)
     distinct.iter().filter_map(mark).collect()
 }
 
-pub(super) fn labels(curve: &Nurbs<DVec2>, display: &CurveDisplay, theme: &Theme) -> Vec<Item> {
-    if curve.points().len() > MANY_POINTS {
+pub(super) fn labels(
+    curve: &Nurbs<DVec2>,
+    display: &CurveDisplay,
+    theme: &Theme,
+    crowd: &Crowd,
+) -> Vec<Item> {
+    if display.labels == PointLabels::None || !crowd.labels() {
         return Vec::new();
     }
     let text = |k: usize| match display.labels {
@@ -103,6 +121,9 @@ pub(super) fn labels(curve: &Nurbs<DVec2>, display: &CurveDisplay, theme: &Theme
         }
     };
     let label = |(k, &at): (usize, &DVec2)| {
+        if !crowd.sees(at) {
+            return None;
+        }
         let (text, math) = text(k)?;
         let size = if math { 14.0 } else { 11.0 } * theme.text_scale;
         let (offset, color) = (DVec2::new(8.0, 7.0), theme.text);
@@ -122,20 +143,27 @@ pub fn short_number(value: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text.replace('-', "−") }
 }
 
-pub(super) fn comb(curve: &Nurbs<DVec2>, display: &CurveDisplay, theme: &Theme) -> Vec<Item> {
-    let (teeth, envelope) = (theme.comb.with_opacity(0.45), theme.comb);
-    let mut items = Vec::new();
-    for span in curvature_comb(curve, display.comb_scale, display.comb_teeth) {
-        let mut segments = Vec::with_capacity(2 * span.teeth.len());
-        for &(foot, tip) in &span.teeth {
-            segments.extend([Segment::Move(foot), Segment::Line(tip)]);
+pub(super) fn comb(curve: &Nurbs<DVec2>, display: &CurveDisplay, theme: &Theme, crowd: &Crowd) -> Vec<Item> {
+    let (mut teeth, mut envelope) = (Vec::new(), Vec::new());
+    let (intervals, count) = crowd.comb_intervals(curve, display.comb_teeth);
+    let mut end: Option<(f64, DVec2)> = None;
+    for span in curvature_comb_over(curve, display.comb_scale, count, &intervals) {
+        for (i, &(foot, tip)) in span.teeth.iter().enumerate() {
+            teeth.extend([Segment::Move(foot), Segment::Line(tip)]);
+            // Where the curvature does not jump the envelope goes on.
+            let goes_on = i > 0 || end == Some((span.interval.0, tip));
+            envelope.push(if goes_on { Segment::Line(tip) } else { Segment::Move(tip) });
         }
-        let stroke = Some(Stroke::solid(teeth, 0.8 * theme.stroke_scale));
-        items.push(Item::Path(Path { segments, stroke, fill: None }));
-        let tips: Vec<DVec2> = span.teeth.iter().map(|&(_, tip)| tip).collect();
-        items.push(Item::Path(Path::polyline(&tips, Stroke::solid(envelope, 1.2 * theme.stroke_scale))));
+        end = span.teeth.last().map(|&(_, tip)| (span.interval.1, tip));
     }
-    items
+    let path = |segments, color, width| {
+        let stroke = Some(Stroke::solid(color, width * theme.stroke_scale));
+        Item::Path(Path { segments, stroke, fill: None })
+    };
+    if teeth.is_empty() {
+        return Vec::new();
+    }
+    vec![path(teeth, theme.comb.with_opacity(0.45), 0.8), path(envelope, theme.comb, 1.2)]
 }
 
 pub(super) fn hull(curve: &Nurbs<DVec2>, parameter: f64, display: &CurveDisplay, theme: &Theme) -> Vec<Item> {

@@ -378,7 +378,7 @@ mod tests {
     use super::*;
     use crate::core::spline_curve::Nurbs;
     use crate::document::{CurveDisplay, Document, Edit, PointLabels, View, first_scene};
-    use crate::figure::composition::{Composition, compose_arranged, compose_with};
+    use crate::figure::composition::{Composition, Measurements, compose_arranged, compose_with};
 
     /// Everything that can be shown.
     fn everything(color: usize, labels: PointLabels) -> CurveDisplay {
@@ -439,7 +439,8 @@ mod tests {
             {
                 let viewport = viewport(&document, size);
                 let choices = Composition::default();
-                let (picture, found) = compose_arranged(&document, &view, &theme, &viewport, &choices);
+                let (picture, found) =
+                    compose_arranged(&document, &view, &theme, &viewport, &choices, &Measurements::default());
                 let boxes = boxes(&picture, &viewport);
                 let told = format!("{shown:?}, {size}, {}", theme.name);
                 assert!(
@@ -476,14 +477,23 @@ mod tests {
         let viewport = viewport(&document, DVec2::new(1000.0, 600.0));
         let (theme, object) = (Theme::light(), view.selected_object.unwrap());
         let window = Composition { handle: Some(object), ..Composition::default() };
-        let (picture, before) = compose_arranged(&document, &view, &theme, &viewport, &window);
-        let export = compose_with(&document, &view, &theme, &viewport, &Composition::default());
+        let (picture, before) =
+            compose_arranged(&document, &view, &theme, &viewport, &window, &Measurements::default());
+        let export = compose_with(
+            &document,
+            &view,
+            &theme,
+            &viewport,
+            &Composition::default(),
+            &Measurements::default(),
+        );
         assert_eq!(picture, export, "the same on the page");
         let mut dragged = Composition { former: before.memory.clone(), ..window };
         for step in 1..=8 {
             let edit = Edit::MovePoints { object, points: vec![7], delta: DVec2::new(0.02, 0.01) };
             document.apply(&edit).unwrap();
-            let after = compose_arranged(&document, &view, &theme, &viewport, &dragged).1;
+            let after =
+                compose_arranged(&document, &view, &theme, &viewport, &dragged, &Measurements::default()).1;
             let spots = &before.memory.spots;
             let kept = spots.iter().filter(|(key, spot)| after.memory.spots.get(key) == Some(spot)).count();
             assert!(kept + 3 >= spots.len(), "step {step}: {kept} of {} keep their sides", spots.len());
@@ -500,7 +510,8 @@ mod tests {
         {
             let viewport = Viewport { center: center.into(), scale: 45.0, size: size.into() };
             let choices = Composition::default();
-            let (picture, found) = compose_arranged(&document, &view, &theme, &viewport, &choices);
+            let (picture, found) =
+                compose_arranged(&document, &view, &theme, &viewport, &choices, &Measurements::default());
             let corner = *found.memory.corners.values().next().unwrap();
             let layer = picture.layers.iter().find(|layer| part_of(layer) == "hodograph").unwrap();
             let Item::Path(frame) = &layer.items[0] else { panic!("the frame") };

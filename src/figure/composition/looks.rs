@@ -8,6 +8,7 @@ use crate::core::rational_bezier::Projective as _;
 use crate::core::spline_curve::{Nurbs, SymmetryKind, VertexKind, convex_hull};
 use crate::document::CurveDisplay;
 use crate::figure::composition::curve_layers::{color, short_number};
+use crate::figure::composition::measured::Measured;
 use crate::figure::font_metrics::{FontFace, text_width};
 use crate::figure::label_placement::PageBox;
 use crate::figure::picture::{Anchor, Color, Item, Label, Marker, MarkerShape, Path, Stroke, Viewport};
@@ -92,7 +93,12 @@ pub(super) fn blossom_labels(curve: &Nurbs<DVec2>, theme: &Theme) -> Vec<Item> {
     curve.points().iter().enumerate().map(label).collect()
 }
 
-pub(super) fn distance_tube(curve: &Nurbs<DVec2>, display: &CurveDisplay, theme: &Theme) -> Vec<Item> {
+pub(super) fn distance_tube(
+    curve: &Nurbs<DVec2>,
+    measured: &Measured,
+    display: &CurveDisplay,
+    theme: &Theme,
+) -> Vec<Item> {
     if let Some(sentence) = too_many(curve, "Distance tube", theme) {
         return sentence;
     }
@@ -101,11 +107,11 @@ pub(super) fn distance_tube(curve: &Nurbs<DVec2>, display: &CurveDisplay, theme:
         return vec![text(curve.points()[0], DVec2::new(10.0, 24.0), sentence, theme.warning, theme)];
     }
     let spline = curve.without_weights();
-    let Ok(distances) = spline.polygon_distances() else { return Vec::new() };
+    let Some(distances) = measured.distances() else { return Vec::new() };
     let tint = color(display, theme);
     let averages = polygon_corners(curve);
     let mut items = Vec::new();
-    for part in &distances {
+    for part in distances {
         let (a, b) = part.interval;
         let inner = averages.iter().copied().filter(|&t| a < t && t < b);
         let corners: Vec<DVec2> = [a]
@@ -155,11 +161,11 @@ fn polygon_corners(curve: &Nurbs<DVec2>) -> Vec<f64> {
         .collect()
 }
 
-pub(super) fn inflections(curve: &Nurbs<DVec2>, theme: &Theme) -> Vec<Item> {
+pub(super) fn inflections(curve: &Nurbs<DVec2>, measured: &Measured, theme: &Theme) -> Vec<Item> {
     if let Some(sentence) = too_many(curve, "Inflections", theme) {
         return sentence;
     }
-    let Ok(found) = curve.inflections() else { return Vec::new() };
+    let Some(found) = measured.inflections() else { return Vec::new() };
     let labelled = found.parameters.len() <= MANY_LABELS;
     let mut items = Vec::new();
     for &parameter in &found.parameters {
@@ -174,11 +180,11 @@ pub(super) fn inflections(curve: &Nurbs<DVec2>, theme: &Theme) -> Vec<Item> {
     items
 }
 
-pub(super) fn vertices(curve: &Nurbs<DVec2>, theme: &Theme) -> Vec<Item> {
+pub(super) fn vertices(curve: &Nurbs<DVec2>, measured: &Measured, theme: &Theme) -> Vec<Item> {
     if let Some(sentence) = too_many(curve, "Curvature extrema", theme) {
         return sentence;
     }
-    let Ok(found) = curve.vertices() else { return Vec::new() };
+    let Some(found) = measured.vertices() else { return Vec::new() };
     let inner: Vec<_> = found.vertices.iter().filter(|vertex| vertex.kind != VertexKind::End).collect();
     let labelled = inner.len() <= MANY_LABELS;
     let mut items = Vec::new();
@@ -209,11 +215,16 @@ pub(super) fn vertices(curve: &Nurbs<DVec2>, theme: &Theme) -> Vec<Item> {
     items
 }
 
-pub(super) fn symmetry(curve: &Nurbs<DVec2>, display: &CurveDisplay, theme: &Theme) -> Vec<Item> {
+pub(super) fn symmetry(
+    curve: &Nurbs<DVec2>,
+    measured: &Measured,
+    display: &CurveDisplay,
+    theme: &Theme,
+) -> Vec<Item> {
     if let Some(sentence) = too_many(curve, "Symmetry", theme) {
         return sentence;
     }
-    let Ok([best, _]) = curve.symmetries() else { return Vec::new() };
+    let Some(best) = measured.symmetry() else { return Vec::new() };
     let tint = theme.palette[(display.color + 3) % theme.palette.len()];
     let (low, high) = bounds(curve);
     let size = (high - low).length();
@@ -332,11 +343,19 @@ mod tests {
 
     use super::*;
     use crate::core::bspline::{EndKnots, SplineSpace};
+    use crate::document::{Document, Edit};
 
     fn wave() -> Nurbs<DVec2> {
         let points = [[0.0, 0.0], [1.0, 3.0], [2.0, -3.0], [3.0, 0.0]].map(DVec2::from).to_vec();
         Nurbs::polynomial(SplineSpace::from_breaks(3, &[0.0, 1.0], EndKnots::Interpolating).unwrap(), points)
             .unwrap()
+    }
+
+    fn measured(curve: &Nurbs<DVec2>) -> Measured {
+        let mut document = Document::new();
+        let (curve, display) = (curve.clone(), CurveDisplay::default());
+        document.apply(&Edit::AddCurve { name: "curve".to_owned(), curve, display }).unwrap();
+        Measured::new(&document.objects()[0])
     }
 
     fn words(items: &[Item]) -> Vec<&str> {
@@ -349,22 +368,30 @@ mod tests {
     #[test]
     fn marks_and_numbers_of_a_wave() {
         let (curve, theme, display) = (wave(), Theme::light(), CurveDisplay::default());
-        assert_eq!(words(&inflections(&curve, &theme)), ["inflection, t = 0.5"], "its inflection");
-        assert_eq!(words(&symmetry(&curve, &display, &theme)), ["nearest centre: symmetric"], "its centre");
+        let measured = measured(&curve);
+        assert_eq!(words(&inflections(&curve, &measured, &theme)), ["inflection, t = 0.5"], "its inflection");
+        assert_eq!(
+            words(&symmetry(&curve, &measured, &display, &theme)),
+            ["nearest centre: symmetric"],
+            "its centre"
+        );
         assert_eq!(
             words(&blossom_labels(&curve, &theme)),
             ["[0, 0, 0]", "[0, 0, 1]", "[0, 1, 1]", "[1, 1, 1]"],
             "the knots"
         );
-        let tube = distance_tube(&curve, &display, &theme);
+        let tube = distance_tube(&curve, &measured, &display, &theme);
         assert!(words(&tube)[0].starts_with("bound 3, measured 2.333"), "{:?}", words(&tube));
-        assert!(words(&vertices(&curve, &theme)).iter().any(|word| word.starts_with("max")), "a maximum");
+        assert!(
+            words(&vertices(&curve, &measured, &theme)).iter().any(|word| word.starts_with("max")),
+            "a maximum"
+        );
     }
 
     #[test]
     fn the_tube_holds_the_curve() {
         let (curve, theme) = (wave(), Theme::light());
-        let tube = distance_tube(&curve, &CurveDisplay::default(), &theme);
+        let tube = distance_tube(&curve, &measured(&curve), &CurveDisplay::default(), &theme);
         let hulls: Vec<Vec<DVec2>> = tube
             .iter()
             .filter_map(|item| {
@@ -390,7 +417,7 @@ mod tests {
         let curve =
             Nurbs::polynomial(space, (0..10_000).map(|k| DVec2::from_angle(f64::from(k))).collect()).unwrap();
         assert!(
-            words(&vertices(&curve, &Theme::light()))[0].contains("10000 control points"),
+            words(&vertices(&curve, &measured(&curve), &Theme::light()))[0].contains("10000 control points"),
             "the sentence"
         );
     }

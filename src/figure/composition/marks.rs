@@ -6,10 +6,12 @@ use crate::core::bspline::Side;
 use crate::core::rational_bezier::Projective as _;
 use crate::core::spline_curve::{Meeting, Nurbs, SymmetryKind, VertexKind};
 use crate::document::{CurveDisplay, Document, Object};
-use crate::figure::composition::curve_layers::{MANY_POINTS, short_number};
+use crate::figure::composition::curve_layers::short_number;
 use crate::figure::composition::looks::{MANY_FOR_LOOKS, bounds};
 use crate::figure::composition::probe::{probe, probe_ends};
 
+/// Knots of so many are not drawn.
+const MANY_POINTS: usize = 2000;
 /// More marks at one place are not told.
 const MOST: usize = 6;
 

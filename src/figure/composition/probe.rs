@@ -11,6 +11,7 @@ use crate::core::spline_curve::{Hyperplane, LineIntersection, Nurbs, variation};
 use crate::core::triangular_scheme::collapse_both;
 use crate::document::CurveDisplay;
 use crate::figure::composition::looks::{MANY_FOR_LOOKS, bounds, text, too_many};
+use crate::figure::composition::measured::Measured;
 use crate::figure::picture::{Item, Marker, MarkerShape, Path, Stroke, Viewport};
 use crate::figure::theme::Theme;
 
@@ -58,6 +59,7 @@ pub fn probe(curve: &Nurbs<DVec2>, ends: [DVec2; 2]) -> Result<Probe, SplineErro
 
 pub(super) fn items(
     curve: &Nurbs<DVec2>,
+    measured: &Measured,
     display: &CurveDisplay,
     theme: &Theme,
     viewport: &Viewport,
@@ -66,9 +68,11 @@ pub(super) fn items(
         return sentence;
     }
     let ends = probe_ends(curve, display);
-    let (Ok(found), Some(along)) = (probe(curve, ends), (ends[1] - ends[0]).try_normalize()) else {
+    let (Some(crossings), Some(along)) = (measured.crossings(ends), (ends[1] - ends[0]).try_normalize())
+    else {
         return Vec::new();
     };
+    let Some(found) = &crossings.probe else { return Vec::new() };
     let tint = theme.selection;
     let reach = along * (viewport.size.length() / viewport.scale);
     let faint = Stroke::dashed(tint.with_opacity(0.5), theme.stroke_scale, 5.0, 4.0);
@@ -91,17 +95,47 @@ pub(super) fn items(
     items
 }
 
-/// The boxes of the pieces that may meet the line, smaller from depth to depth.
-pub(super) fn bisection(curve: &Nurbs<DVec2>, display: &CurveDisplay, theme: &Theme) -> Vec<Item> {
-    let few = curve.points().len() <= MANY_FOR_LOOKS;
-    if few { brackets(curve, probe_ends(curve, display), theme) } else { Vec::new() }
+/// The box of a piece that may meet the line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Bracket {
+    depth: usize,
+    low: DVec2,
+    high: DVec2,
 }
 
-fn brackets(curve: &Nurbs<DVec2>, ends: [DVec2; 2], theme: &Theme) -> Vec<Item> {
+impl Bracket {
+    fn items(&self, theme: &Theme) -> Vec<Item> {
+        let Self { depth, low, high } = *self;
+        let corners = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
+        let share = depth as f64 / DEPTH as f64;
+        let tint = theme.muted_text.mixed(theme.selection, share).with_opacity(0.55);
+        let rim = Stroke::solid(tint, 0.9 * theme.stroke_scale);
+        let mut items = vec![Item::Path(Path::polygon(&corners, Some(rim), None))];
+        if depth < 3 {
+            let offset = DVec2::new(3.0, -12.0);
+            items.push(text(DVec2::new(low.x, high.y), offset, (depth + 1).to_string(), tint, theme));
+        }
+        items
+    }
+}
+
+/// The boxes of the pieces that may meet the line, smaller from depth to depth.
+pub(super) fn bisection(
+    curve: &Nurbs<DVec2>,
+    measured: &Measured,
+    display: &CurveDisplay,
+    theme: &Theme,
+) -> Vec<Item> {
+    let few = curve.points().len() <= MANY_FOR_LOOKS;
+    let crossings = measured.crossings(probe_ends(curve, display)).filter(|_| few);
+    crossings.iter().flat_map(|found| &found.brackets).flat_map(|bracket| bracket.items(theme)).collect()
+}
+
+pub(super) fn brackets(curve: &Nurbs<DVec2>, ends: [DVec2; 2]) -> Vec<Bracket> {
     let normal = (ends[1] - ends[0]).perp();
     let pieces = curve.homogeneous().bezier_pieces();
     let mut level: Vec<Vec<_>> = pieces.iter().map(|(_, points)| points.to_vec()).collect();
-    let mut items = Vec::new();
+    let mut boxes = Vec::new();
     for depth in 0..=DEPTH {
         let heights = |piece: &Vec<glam::DVec3>| {
             let mut heights = piece.iter().map(|p| normal.dot(p.truncate()) - normal.dot(ends[0]) * p.z);
@@ -112,29 +146,18 @@ fn brackets(curve: &Nurbs<DVec2>, ends: [DVec2; 2], theme: &Theme) -> Vec<Item> 
             let (low, high) = heights(piece);
             low <= 0.0 && high >= 0.0
         });
-        if items.len() + level.len() > MANY_BOXES {
+        if boxes.len() + level.len() > MANY_BOXES {
             break;
         }
         for piece in &level {
             let points: Vec<DVec2> = piece.iter().map(|&lifted| DVec2::project(lifted).0).collect();
             let (low, high) =
                 points.iter().fold((points[0], points[0]), |(low, high), &p| (low.min(p), high.max(p)));
-            let corners = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
-            let share = depth as f64 / DEPTH as f64;
-            let tint = theme.muted_text.mixed(theme.selection, share).with_opacity(0.55);
-            items.push(Item::Path(Path::polygon(
-                &corners,
-                Some(Stroke::solid(tint, 0.9 * theme.stroke_scale)),
-                None,
-            )));
-            if depth < 3 {
-                let offset = DVec2::new(3.0, -12.0);
-                items.push(text(DVec2::new(low.x, high.y), offset, (depth + 1).to_string(), tint, theme));
-            }
+            boxes.push(Bracket { depth, low, high });
         }
         level = level.iter().flat_map(|piece| halves(piece)).collect();
     }
-    items
+    boxes
 }
 
 /// Both halves of a Bezier piece, by de Casteljau's algorithm.
@@ -158,7 +181,7 @@ mod tests {
         assert_eq!((found.curve.len(), found.polygon), (2, 2), "{found:?}");
         assert_eq!(probe(&circle, [DVec2::Y * 3.0, DVec2::new(1.0, 3.0)]).unwrap().polygon, 0, "beside it");
         assert!(probe(&circle, [DVec2::X; 2]).is_err(), "no line");
-        let boxes = brackets(&circle, [DVec2::new(-2.0, 0.3), DVec2::new(2.0, 0.4)], &Theme::light());
+        let boxes = brackets(&circle, [DVec2::new(-2.0, 0.3), DVec2::new(2.0, 0.4)]);
         assert!(boxes.len() > 2 * DEPTH, "at least a box for each depth and crossing");
     }
 }
