@@ -137,3 +137,107 @@ fn whole_curve_and_joint_are_measured() {
         "the joint"
     );
 }
+
+#[test]
+fn the_looks_button_opens_all_looks_with_their_keys_and_stays_open() {
+    let mut window = window(vec![curve(0.0)]);
+    window.get_by_label("Looks").click();
+    window.run_steps(3);
+    let entries = [
+        "Control polygon",
+        "Bezier points",
+        "Blossom labels",
+        "Distance tube",
+        "Curvature comb",
+        "Construction at t",
+        "Convex hull at t",
+        "Frame at t",
+        "Circle of curvature",
+        "Hodograph",
+        "Inflections",
+        "Curvature extrema",
+        "Symmetry",
+        "Probe line",
+    ];
+    // The boxes of the inspector stand to the right of the popup.
+    let click = |window: &mut Window, text: &str| {
+        let boxes = window.query_all_by_role_and_label(eframe::egui::accesskit::Role::CheckBox, text);
+        let boxes: Vec<_> = boxes.into_iter().collect();
+        assert!(boxes.len() >= 2, "{text} in the inspector and in the popup");
+        boxes.iter().min_by(|a, b| a.rect().left().total_cmp(&b.rect().left())).unwrap().click();
+        window.run_steps(3);
+    };
+    let before = display(&window);
+    for text in entries {
+        click(&mut window, text);
+    }
+    let after = display(&window);
+    for (name, before, after) in [
+        ("polygon", before.polygon, after.polygon),
+        ("hodograph", before.hodograph, after.hodograph),
+        ("tube", before.distance_tube, after.distance_tube),
+        ("frame", before.frame, after.frame),
+        ("extrema", before.vertices, after.vertices),
+        ("probe", before.probe_line, after.probe_line),
+        ("hull", before.hull, after.hull),
+    ] {
+        assert_ne!(before, after, "{name} was switched");
+    }
+    assert_eq!(lab(&window).history.steps().0, entries.len(), "one step each");
+}
+
+#[test]
+fn the_toolbar_is_one_row_in_a_window_of_1024() {
+    let mut window = window(vec![curve(0.0)]);
+    for (width, look) in [(1024.0, Key::F6), (1024.0, Key::F8), (1500.0, Key::F6)] {
+        window.set_size(vec2(width, 700.0));
+        window.key_press(look);
+        window.run_steps(4);
+        let row = |label: &str| window.get_by_label(label).rect();
+        let (first, last) = (row("Undo"), row("Looks"));
+        assert!((first.center().y - last.center().y).abs() < 2.0, "{width} wide: {first} and {last}");
+        let fit = window.get_all_by_label("Fit").next().unwrap().rect();
+        assert!((first.center().y - fit.center().y).abs() < 2.0 && fit.right() <= width, "Fit at {fit}");
+    }
+}
+
+/// Moves the pointer to `at` and lets it rest.
+fn rest(window: &mut Window, at: eframe::egui::Pos2) {
+    window.hover_at(at);
+    window.run_steps(40);
+}
+
+#[test]
+fn a_mark_tells_what_it_is_when_the_pointer_rests_on_it() {
+    let mut window = window(vec![curve(0.0)]);
+    for key in [Key::I, Key::P, Key::Z] {
+        window.key_press_modifiers(Modifiers::SHIFT, key);
+        window.run_steps(2);
+    }
+    let point = window.get_by_label("Control point 3 of C0").rect().center();
+    assert!(!says(&window, "blossom ["), "no note at first");
+    rest(&mut window, point);
+    assert!(says(&window, "Control point 3 of C0") && says(&window, "blossom ["), "the point with its knots");
+    rest(&mut window, point + vec2(200.0, 150.0));
+    assert!(!says(&window, "blossom ["), "gone beside it");
+    let end = window.get_by_label("Control point 0 of C0").rect().center();
+    rest(&mut window, end);
+    for words in ["Knot of C0", "multiplicity 3, C\u{2070}", "Bezier point 0 of piece 0 of C0"] {
+        assert!(says(&window, words), "{words}");
+    }
+}
+
+#[test]
+fn labels_without_room_are_counted_in_the_status_line() {
+    let mut window = window(vec![curve(0.0)]);
+    for (modifiers, key) in [(Modifiers::NONE, Key::L), (Modifiers::SHIFT, Key::L)] {
+        window.key_press_modifiers(modifiers, key);
+        window.run_steps(2);
+    }
+    assert!(!says(&window, "without room"), "there is room for all");
+    for _ in 0..14 {
+        window.key_press_modifiers(Modifiers::COMMAND, Key::Minus);
+        window.run_steps(2);
+    }
+    assert!(says(&window, "labels without room"), "seven points on a few pixels");
+}

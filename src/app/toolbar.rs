@@ -3,7 +3,7 @@
 use eframe::egui::{self, Button, RichText, Ui};
 
 use crate::app::command::Command;
-use crate::app::command_state::{is_on, is_possible};
+use crate::app::command_state::{is_on, is_possible, key_text};
 use crate::app::lab::Lab;
 use crate::app::workspace::{Room, Workspace};
 
@@ -39,7 +39,7 @@ pub(crate) fn show(lab: &mut Lab, workspace: &mut dyn Workspace, ui: &mut Ui) {
 
 /// A button with one word for `command`: pressed while what the command switches is on.
 pub(crate) fn button(word: &str, command: Command, lab: &mut Lab, ui: &mut Ui) {
-    let key = command.shortcut().map(|shortcut| format!("  ({})", ui.ctx().format_shortcut(&shortcut)));
+    let key = key_text(command, ui.ctx()).map(|key| format!("  ({key})"));
     let hint = format!("{}{}", command.text().1, key.unwrap_or_default());
     let button = match is_on(command, lab) {
         Some(on) => Button::selectable(on, word),
@@ -48,6 +48,24 @@ pub(crate) fn button(word: &str, command: Command, lab: &mut Lab, ui: &mut Ui) {
     if ui.add_enabled(is_possible(command, lab), button).on_hover_text(hint).clicked() {
         lab.commands.push(command);
     }
+}
+
+/// An entry for `command` with its key, ticked while what the command switches is on; whether it was clicked.
+pub(crate) fn menu_item(command: Command, lab: &mut Lab, ui: &mut Ui) -> bool {
+    let ((text, hint), on, possible) = (command.text(), is_on(command, lab), is_possible(command, lab));
+    let mut button = Button::selectable(on == Some(true), text);
+    if let Some(key) = key_text(command, ui.ctx()) {
+        button = button.shortcut_text(key);
+    }
+    let response = ui.add_enabled(possible, button).on_hover_text(hint);
+    response.widget_info(|| match on {
+        Some(on) => egui::WidgetInfo::selected(egui::Role::CheckBox, possible, on, text),
+        None => egui::WidgetInfo::labeled(egui::Role::Button, possible, text),
+    });
+    if response.clicked() {
+        lab.commands.push(command);
+    }
+    response.clicked()
 }
 
 fn step(sign: &str, word: &str, command: Command, name: Option<String>, lab: &mut Lab, ui: &mut Ui) {

@@ -148,7 +148,7 @@ pub fn frame_pages(
     };
     let measurements = Measurements::default();
     let pages = texts.iter().enumerate().map(|(index, text)| {
-        let choices = Composition { step: Some((object, story.drawing(index))), transparent: false };
+        let choices = Composition { step: Some((object, story.drawing(index))), ..Composition::default() };
         // The scale of the axes stands at the edge of the picture, not of the page.
         let mut picture = compose_with(document, view, theme, viewport, &choices, &measurements);
         let number = format!("{} / {}", index + 1, frames.len());

@@ -4,6 +4,7 @@
 
 use glam::DVec2;
 
+use crate::figure::chart_axis::{ScaledAxis, placed, shortened};
 use crate::figure::clip::{polyline_in_box, segment_in_box};
 use crate::figure::font_metrics::{FontFace, text_width};
 use crate::figure::formula;
@@ -11,7 +12,7 @@ use crate::figure::picture::{
     Anchor, Color, Item, Label, Marker, MarkerShape, Path, Picture, Stroke, Viewport,
 };
 use crate::figure::theme::Theme;
-use crate::figure::ticks::{Step, Tick};
+use crate::figure::ticks::Tick;
 
 /// Least distance of ticks in pt along an axis.
 const TICK_SPACING: DVec2 = DVec2::new(60.0, 32.0);
@@ -23,8 +24,6 @@ const NAME_SIZE: f64 = 10.0;
 const TITLE_SIZE: f64 = 12.0;
 /// Space between things beside the plot in pt.
 const GAP: f64 = 6.0;
-/// Part of the range added on either side of the data.
-const ROOM: f64 = 0.04;
 
 /// How numbers are laid out along an axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -122,12 +121,12 @@ impl Chart {
 
     /// Where the data stand on a page of `size` pt.
     pub fn area(&self, theme: &Theme, size: DVec2) -> ChartArea {
-        let Plot { low, high, x, y } = self.plot(theme, size).0;
+        let Plot { low, high, x, y, .. } = self.plot(theme, size);
         ChartArea { low, high, x: x.ends, y: y.ends }
     }
 
     /// The rectangle between the axes, and the ticks beside it.
-    fn plot(&self, theme: &Theme, size: DVec2) -> (Plot, Vec<Tick>) {
+    fn plot(&self, theme: &Theme, size: DVec2) -> Plot {
         let x = ScaledAxis::new(
             &self.x,
             self.series.iter().flat_map(|series| &series.points).map(|point| point.x),
@@ -142,42 +141,47 @@ impl Chart {
 
         let lower = number_size + name_size + 3.0 * GAP;
         let upper = if self.title.is_empty() { 2.0 * GAP } else { title_size + 2.5 * GAP };
-        let above_axis = if self.y.label.is_empty() { 0.0 } else { name_size + GAP };
-        let y_ticks = y.ticks((size.y - lower - upper - above_axis) / TICK_SPACING.y);
-        let widest = y_ticks.iter().map(|tick| label_width(&tick.label, number_size)).fold(0.0, f64::max);
-        let low = DVec2::new(widest + 2.5 * GAP, lower);
-        let high = DVec2::new(size.x - 2.5 * GAP, size.y - upper - above_axis).max(low + 1.0);
-        (Plot { low, high, x, y }, y_ticks)
+        let above_axis = if self.y.label.is_empty() && y.factor == 0 { 0.0 } else { name_size + GAP };
+        let height = size.y - lower - upper - above_axis;
+        let y_ticks = y.ticks(height, TICK_SPACING.y * type_scale, |_| 1.2 * number_size);
+        let width_of = |label: &str| label_width(label, number_size);
+        let widest = |ticks: &[Tick]| ticks.iter().map(|tick| width_of(&tick.label)).fold(0.0, f64::max);
+        let beside = widest(&y_ticks) + 2.5 * GAP;
+        let x_ticks =
+            |width: f64| x.ticks(width, TICK_SPACING.x * type_scale, |label| width_of(label) + 1.5 * GAP);
+        // Half of a number may stand beyond each end of the axis.
+        let half = 0.5 * widest(&x_ticks(size.x - beside - 2.5 * GAP)) + 0.5 * GAP;
+        let low = DVec2::new(beside.max(half), lower);
+        let high = DVec2::new(size.x - half.max(2.5 * GAP), size.y - upper - above_axis).max(low + 1.0);
+        let x_ticks = x_ticks(high.x - low.x);
+        Plot { low, high, x, y, x_ticks, y_ticks }
     }
 
     /// The chart on a page of `size` pt.
     pub fn to_picture(&self, theme: &Theme, size: DVec2) -> Picture {
-        let (plot, y_ticks) = self.plot(theme, size);
+        let plot = self.plot(theme, size);
         let (low, high) = (plot.low, plot.high);
         let type_scale = theme.text_scale;
         let (name_size, title_size) = (NAME_SIZE * type_scale, TITLE_SIZE * type_scale);
-        let x_ticks = plot.x.ticks((high.x - low.x) / TICK_SPACING.x);
 
         let mut picture = Picture::new(Some(theme.background));
-        picture.push_layer("grid", plot.grid(&x_ticks, &y_ticks, theme));
+        picture.push_layer("grid", plot.grid(theme));
         for series in &self.series {
             picture.push_layer(format!("series: {}", series.name), plot.series(series, theme));
         }
         let corners = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
         let frame = Path::polygon(&corners, Some(theme.stroke(theme.axis, 0.75)), None);
         picture.push_layer("frame", vec![Item::Path(frame)]);
-        let mut texts = plot.numbers(&x_ticks, &y_ticks, theme);
+        let mut texts = plot.numbers(theme);
         let middle = (low.x + high.x) / 2.0;
-        texts.push(text(DVec2::new(middle, GAP), &self.x.label, name_size, theme.text, Anchor::Middle));
-        texts.push(text(
-            DVec2::new(low.x, high.y + GAP),
-            &self.y.label,
-            name_size,
-            theme.text,
-            Anchor::Start,
-        ));
+        let width = high.x - low.x;
+        let x_name = plot.x.name(&self.x.label, name_size, width);
+        let y_name = plot.y.name(&self.y.label, name_size, size.x - low.x - GAP);
+        let title = shortened(&self.title, title_size, width);
+        texts.push(text(DVec2::new(middle, GAP), &x_name, name_size, theme.text, Anchor::Middle));
+        texts.push(text(DVec2::new(low.x, high.y + GAP), &y_name, name_size, theme.text, Anchor::Start));
         let head = DVec2::new(middle, size.y - title_size - GAP * 0.5);
-        texts.push(text(head, &self.title, title_size, theme.text, Anchor::Middle));
+        texts.push(text(head, &title, title_size, theme.text, Anchor::Middle));
         texts.retain(|item| !matches!(item, Item::Label(label) if label.text.is_empty()));
         picture.push_layer("text", texts);
         picture.push_layer("legend", self.legend(&plot, theme));
@@ -241,72 +245,14 @@ impl Series {
     }
 }
 
-/// An axis with its ends found.
-struct ScaledAxis {
-    scale: AxisScale,
-    /// Ends as numbers on the axis: logarithms to base 10 if the axis is logarithmic.
-    ends: (f64, f64),
-}
-
-impl ScaledAxis {
-    fn new(axis: &Axis, data: impl Iterator<Item = f64>) -> Self {
-        let scale = axis.scale;
-        let placed = |value: f64| placed(scale, value);
-        let chosen = axis.range.and_then(|(low, high)| Some((placed(low)?, placed(high)?)));
-        if let Some(ends) = chosen.filter(|(low, high)| low < high) {
-            return Self { scale, ends };
-        }
-        let (low, high) = data
-            .filter_map(placed)
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
-        let ends = if low > high {
-            (0.0, 1.0)
-        } else if high - low <= 1e-12 * low.abs().max(high.abs()) {
-            // One value: the axis reaches as far as the value is from 0, or by 1.
-            let reach = if low.abs() > 1e-300 { low.abs() * 0.5 } else { 1.0 };
-            (low - reach, high + reach)
-        } else {
-            let room = ROOM * (high - low);
-            (low - room, high + room)
-        };
-        Self { scale, ends }
-    }
-
-    /// At most about `count` ticks, as numbers on the axis.
-    fn ticks(&self, count: f64) -> Vec<Tick> {
-        let (low, high) = self.ends;
-        let least = (high - low) / count.max(1.0);
-        match self.scale {
-            AxisScale::Linear => {
-                Step::at_least(least).map(|step| step.ticks_between(low, high)).unwrap_or_default()
-            }
-            AxisScale::Logarithmic => {
-                // Whole powers of 10 only.
-                let Some(step) = Step::at_least(least.max(1.0)) else { return Vec::new() };
-                let mut ticks = step.ticks_between(low, high);
-                for tick in &mut ticks {
-                    tick.label = format!("$10^{{{}}}$", tick.label);
-                }
-                ticks
-            }
-        }
-    }
-}
-
-/// The number on the axis where `value` stands; `None` if it has no place.
-fn placed(scale: AxisScale, value: f64) -> Option<f64> {
-    match scale {
-        AxisScale::Linear => value.is_finite().then_some(value),
-        AxisScale::Logarithmic => (value.is_finite() && value > 0.0).then(|| value.log10()),
-    }
-}
-
 /// The rectangle between the axes.
 struct Plot {
     low: DVec2,
     high: DVec2,
     x: ScaledAxis,
     y: ScaledAxis,
+    x_ticks: Vec<Tick>,
+    y_ticks: Vec<Tick>,
 }
 
 impl Plot {
@@ -315,26 +261,26 @@ impl Plot {
         ChartArea { low: self.low, high: self.high, x: self.x.ends, y: self.y.ends }.page(x, y)
     }
 
-    fn grid(&self, x_ticks: &[Tick], y_ticks: &[Tick], theme: &Theme) -> Vec<Item> {
+    fn grid(&self, theme: &Theme) -> Vec<Item> {
         let stroke = theme.stroke(theme.grid_major, 0.5);
-        let upright = x_ticks.iter().map(|tick| {
+        let upright = self.x_ticks.iter().map(|tick| {
             let x = self.page(tick.value, 0.0).x;
             [DVec2::new(x, self.low.y), DVec2::new(x, self.high.y)]
         });
-        let level = y_ticks.iter().map(|tick| {
+        let level = self.y_ticks.iter().map(|tick| {
             let y = self.page(0.0, tick.value).y;
             [DVec2::new(self.low.x, y), DVec2::new(self.high.x, y)]
         });
         upright.chain(level).map(|ends| Item::Path(Path::polyline(&ends, stroke.clone()))).collect()
     }
 
-    fn numbers(&self, x_ticks: &[Tick], y_ticks: &[Tick], theme: &Theme) -> Vec<Item> {
+    fn numbers(&self, theme: &Theme) -> Vec<Item> {
         let size = NUMBER_SIZE * theme.text_scale;
-        let below = x_ticks.iter().map(|tick| {
-            let place = DVec2::new(self.page(tick.value, 0.0).x, self.low.y - GAP - 0.8 * size);
+        let below = self.x_ticks.iter().map(|tick| {
+            let place = DVec2::new(self.page(tick.value, 0.0).x, self.low.y - GAP - 0.95 * size);
             text(place, &tick.label, size, theme.muted_text, Anchor::Middle)
         });
-        let beside = y_ticks.iter().map(|tick| {
+        let beside = self.y_ticks.iter().map(|tick| {
             let place = DVec2::new(self.low.x - GAP, self.page(0.0, tick.value).y - 0.35 * size);
             text(place, &tick.label, size, theme.muted_text, Anchor::End)
         });
@@ -381,7 +327,7 @@ impl Plot {
 }
 
 /// The formula between two `$`, if there is one.
-fn formula_in(text: &str) -> Option<&str> {
+pub(super) fn formula_in(text: &str) -> Option<&str> {
     text.strip_prefix('$').and_then(|rest| rest.strip_suffix('$'))
 }
 
@@ -447,6 +393,86 @@ mod tests {
         assert_eq!(lines_of(&picture, "series: error"), [7], "from 2.5 over 3, 4, 5, 6, 7 to 7.5");
         let marks = picture.layers.iter().flat_map(|layer| &layer.items);
         assert_eq!(marks.filter(|item| matches!(item, Item::Marker(_))).count(), 5, "marks at 3, 4, 5, 6, 7");
+    }
+
+    /// The boxes of all texts of a chart on its page: left, lower, right, upper.
+    fn boxes(picture: &Picture) -> Vec<(String, [f64; 4])> {
+        let labels =
+            picture.layers.iter().filter(|layer| layer.name == "text").flat_map(|layer| &layer.items);
+        labels
+            .filter_map(|item| {
+                let Item::Label(label) = item else { return None };
+                let words = if label.math { format!("${}$", label.text) } else { label.text.clone() };
+                let width = label_width(&words, label.size);
+                let left = label.at.x - label.anchor.part_before() * width;
+                let (low, high) = (label.at.y - 0.2 * label.size, label.at.y + 0.75 * label.size);
+                Some((words, [left, low, left + width, high]))
+            })
+            .collect()
+    }
+
+    #[test]
+    fn all_ranges_have_three_numbers_on_both_axes_that_neither_touch_nor_leave_the_page() {
+        let sizes = [(480.0, 300.0), (420.0, 130.0), (1300.0, 160.0)].map(DVec2::from);
+        let mut ranges = vec![(0.5, 0.5), (0.0, 0.0), (-7.0, -7.0), (1e6, 1e6), (-1.9, 3.3), (99.0, 101.0)];
+        for power in -6..=6 {
+            let unit = 10f64.powi(power);
+            ranges.extend([
+                (0.0, unit),
+                (-unit, 0.3 * unit),
+                (-1.234 * unit, 5.678 * unit),
+                (-9.0 * unit, -unit),
+            ]);
+        }
+        for (theme, size) in
+            Theme::all().into_iter().flat_map(|theme| sizes.map(|size| (theme.clone(), size)))
+        {
+            let size = size * DVec2::new(1.0, theme.text_scale);
+            for &(low, high) in &ranges {
+                let points = vec![DVec2::new(low, low), DVec2::new(high, high)];
+                let axis = |label: &str| Axis { label: label.to_owned(), ..Axis::default() };
+                let y = axis(
+                    "Curvature of a curve with a name that is so long that nobody wants to read all of it, but still",
+                );
+                let chart = Chart {
+                    x: axis("parameter t"),
+                    y,
+                    series: vec![series(points, SeriesStyle::Line)],
+                    title: String::new(),
+                };
+                let boxes = boxes(&chart.to_picture(&theme, size));
+                let area = chart.area(&theme, size);
+                let below =
+                    boxes.iter().filter(|(_, found)| found[3] < area.low.y && found[1] > 16.0).count();
+                let beside =
+                    boxes.iter().filter(|(_, found)| found[2] < area.low.x && found[3] > area.low.y).count();
+                let told = format!("[{low}, {high}] on {size}, {}: {boxes:?}", theme.name);
+                assert!(below >= 3 && beside >= 3, "{below} below, {beside} beside, {told}");
+                for (k, (words, found)) in boxes.iter().enumerate() {
+                    let [left, lower, right, upper] = *found;
+                    assert!(
+                        left >= 0.0 && lower >= 0.0 && right <= size.x && upper <= size.y,
+                        "{words} leaves {told}"
+                    );
+                    for (other, taken) in &boxes[..k] {
+                        let apart =
+                            left >= taken[2] || taken[0] >= right || lower >= taken[3] || taken[1] >= upper;
+                        assert!(apart, "{words} touches {other}, {told}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn less_than_a_decade_is_labelled_with_numbers() {
+        for (low, high) in [(2.0, 7.0), (0.02, 0.3), (1e-5, 3e-5), (5.0, 150.0)] {
+            let points = vec![DVec2::new(0.0, low), DVec2::new(1.0, high)];
+            let y = Axis { scale: AxisScale::Logarithmic, ..Axis::default() };
+            let chart = Chart { y, series: vec![series(points, SeriesStyle::Line)], ..Chart::default() };
+            let plot = chart.plot(&Theme::light(), SIZE);
+            assert!(plot.y_ticks.len() >= 3, "[{low}, {high}]: {:?}", plot.y_ticks);
+        }
     }
 
     #[test]

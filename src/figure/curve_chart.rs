@@ -17,6 +17,9 @@ pub const MANY_FUNCTIONS: usize = 300;
 /// The error of lengths, as a part of the size of the control polygon.
 const LENGTH_TOLERANCE: f64 = 1e-8;
 
+/// Values that differ by less, as a part of themselves or of their unit, are one value and rounding.
+const FLAT: f64 = 1e-8;
+
 /// What is drawn upwards.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Quantity {
@@ -45,6 +48,15 @@ impl Quantity {
             Self::X => "x",
             Self::Y => "y",
             Self::Basis => "B-splines",
+        }
+    }
+
+    /// What stands at its axis.
+    pub const fn label(self) -> &'static str {
+        match self {
+            Self::Curvature => "Curvature κ",
+            Self::Speed => "Speed |r′|",
+            other => other.name(),
         }
     }
 
@@ -165,7 +177,7 @@ impl CurveSamples {
             (series.collect(), Some((0.0, 1.02)))
         } else {
             let points = self.line(|sample| DVec2::new(x(sample), quantity.of(sample)));
-            let range = level_range(&points);
+            let range = flat_range(&points, self.unit(quantity)).or_else(|| level_range(&points));
             (vec![line(theme.palette[color % theme.palette.len()], points)], range)
         };
         let (low, high) = if over_length {
@@ -177,8 +189,23 @@ impl CurveSamples {
         Chart {
             title: String::new(),
             x: Axis { label, range: Some((low, high)), ..Axis::default() },
-            y: Axis { label: format!("{} of {name}", quantity.name()), range: y, ..Axis::default() },
+            y: Axis { label: format!("{} of {name}", quantity.label()), range: y, ..Axis::default() },
             series,
+        }
+    }
+
+    /// What counts as 1 of `quantity` for a curve of this size over this interval.
+    fn unit(&self, quantity: Quantity) -> f64 {
+        let samples = || self.parts.iter().flatten();
+        let (low, high) = samples().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), sample| {
+            (low.min(sample.point), high.max(sample.point))
+        });
+        let size = (high - low).max_element();
+        match quantity {
+            Quantity::Curvature => size.recip(),
+            Quantity::Speed => samples().map(|sample| sample.speed).fold(0.0, f64::max),
+            Quantity::X | Quantity::Y => size,
+            Quantity::Basis => 1.0,
         }
     }
 
@@ -284,6 +311,20 @@ pub fn arc_length(curve: &Nurbs<DVec2>) -> Result<ArcLength<DVec2>, String> {
     ArcLength::new(curve, tolerance).map_err(|error| error.to_string())
 }
 
+/// A range around values that differ by rounding only, measured by the `unit` of their quantity; `None` for others.
+fn flat_range(points: &[DVec2], unit: f64) -> Option<(f64, f64)> {
+    let values = points.iter().map(|point| point.y).filter(|y| y.is_finite());
+    let (low, high) =
+        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)));
+    let (size, unit) = (low.abs().max(high.abs()), if unit.is_finite() { unit } else { 1.0 });
+    if !(low <= high && high - low <= FLAT * size.max(unit)) {
+        return None;
+    }
+    // Around 0 the unit tells how far.
+    let (middle, reach) = if size <= FLAT * unit { (0.0, unit) } else { (low.midpoint(high), 0.5 * size) };
+    (reach > 0.0).then_some((middle - reach, middle + reach))
+}
+
 /// A range that a few extreme values, such as curvatures near a cusp, do not fill; `None` if the chart finds its own.
 fn level_range(points: &[DVec2]) -> Option<(f64, f64)> {
     let mut values: Vec<f64> = points.iter().map(|point| point.y).filter(|y| y.is_finite()).collect();
@@ -320,6 +361,21 @@ mod tests {
         assert!((end - 4.0 * std::f64::consts::PI).abs() < 1e-6, "length {end}");
         let last = samples.parts().last().unwrap().last().unwrap();
         assert_eq!(last.length, Some(samples.length().unwrap().total()), "the end is not the start");
+    }
+
+    #[test]
+    fn a_constant_is_level_whatever_its_rounding() {
+        let ends = |curve: &Nurbs<DVec2>, quantity| {
+            let chart = CurveSamples::new(curve).chart(quantity, false, "C", 0, &Theme::light());
+            chart.y.range.unwrap()
+        };
+        let (low, high) = ends(&Nurbs::circle(DVec2::new(1e3, 2.0), 4.0).unwrap(), Quantity::Curvature);
+        assert!((low - 0.125).abs() < 1e-6 && (high - 0.375).abs() < 1e-6, "1/4 between {low} and {high}");
+        let space = SplineSpace::new(2, vec![-1.0, 0.0, 0.0, 1.0, 2.0, 2.0, 3.0]).unwrap();
+        let points = [0.1, 0.2, 0.7, 0.8].map(|x| DVec2::new(x, 0.3 * x)).to_vec();
+        let line = Nurbs::polynomial(space, points).unwrap();
+        let (low, high) = ends(&line, Quantity::Curvature);
+        assert!(low < -1.0 && high > 1.0, "a straight line has no curvature worth a number: {low} to {high}");
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 pub mod approximation;
 pub mod chart;
+mod chart_axis;
 pub mod clip;
 pub mod color_bar;
 pub mod color_map;
@@ -15,6 +16,7 @@ pub mod field;
 pub mod font_metrics;
 pub mod formula;
 pub mod isoline;
+pub mod label_placement;
 pub mod mesh;
 pub mod page;
 pub mod picture;

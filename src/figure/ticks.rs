@@ -16,6 +16,10 @@ const FARTHEST_TICK: f64 = 4e15;
 const MAJOR_SPACING: f64 = 70.0;
 /// Type size of grid labels in pt.
 const LABEL_SIZE: f64 = 9.0;
+/// Fewer labels along an axis do not tell what it shows.
+const FEWEST_LABELS: usize = 3;
+/// So many steps, each finer than the one before, reach from a whole axis to less than a hundredth of it.
+const STEPS_OF_AXIS: usize = 8;
 
 /// A round distance: 1, 2 or 5 times a power of 10.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,6 +61,15 @@ impl Step {
             1 => Self { mantissa: 2, exponent: self.exponent - 1 },
             2 => Self { mantissa: 5, exponent: self.exponent - 1 },
             _ => Self { mantissa: 1, exponent: self.exponent },
+        }
+    }
+
+    /// The next smaller round distance.
+    const fn next_finer(self) -> Self {
+        match self.mantissa {
+            5 => Self { mantissa: 2, ..self },
+            2 => Self { mantissa: 1, ..self },
+            _ => Self { mantissa: 5, exponent: self.exponent - 1 },
         }
     }
 
@@ -116,6 +129,56 @@ fn decimal_text(digits: i64, exponent: i32) -> String {
     let (whole, part) = number.split_at(1);
     let point = if part.is_empty() { "" } else { "." };
     format!("{sign}{whole}{point}{part}e{}", power - 1)
+}
+
+/// Ticks of an axis that shows `[low, high]` on `length` pt, `extent` giving the room in pt that a label takes along it.
+///
+/// The step is the smallest round one with ticks at least `spacing` pt apart whose labels do not touch, or a smaller one if that has fewer than 3
+/// ticks. If not even 3 labels have room beside each other, some ticks have an empty label. None if the numbers cannot be told apart.
+pub fn axis_ticks(
+    (low, high): (f64, f64),
+    length: f64,
+    spacing: f64,
+    extent: impl Fn(&str) -> f64,
+) -> Vec<Tick> {
+    let mut step = Step::at_least(high - low);
+    let mut enough: Option<Vec<Tick>> = None;
+    let mut chosen: Option<Vec<Tick>> = None;
+    for _ in 0..STEPS_OF_AXIS {
+        let Some(now) = step else { break };
+        let ticks = now.ticks_between(low, high);
+        let distance = now.size() / (high - low) * length;
+        let fits = ticks.iter().all(|tick| extent(&tick.label) <= distance);
+        if ticks.len() >= FEWEST_LABELS {
+            enough.get_or_insert_with(|| ticks.clone());
+            if fits && (chosen.is_none() || distance >= spacing) {
+                chosen = Some(ticks);
+            }
+        }
+        step = Some(now.next_finer());
+    }
+    chosen.or_else(|| enough.map(|ticks| thinned(ticks, (high - low) / length, extent))).unwrap_or_default()
+}
+
+/// Leaves labels only where they have room, `unit` per pt: first the last, then the first, then those between.
+fn thinned(mut ticks: Vec<Tick>, unit: f64, extent: impl Fn(&str) -> f64) -> Vec<Tick> {
+    let count = ticks.len();
+    let mut kept: Vec<usize> = Vec::new();
+    for index in [count - 1, 0, count / 2].into_iter().chain(1..count) {
+        let room = |other: usize| {
+            let least = 0.5 * (extent(&ticks[index].label) + extent(&ticks[other].label));
+            (ticks[index].value - ticks[other].value).abs() >= least * unit
+        };
+        if kept.iter().all(|&other| room(other)) {
+            kept.push(index);
+        }
+    }
+    for (index, tick) in ticks.iter_mut().enumerate() {
+        if !kept.contains(&index) {
+            tick.label.clear();
+        }
+    }
+    ticks
 }
 
 /// The round step of the labelled grid lines of a view.
@@ -228,6 +291,45 @@ mod tests {
                 let error = (number - tick.value).abs();
                 assert!(error <= 1e-15 * number.abs(), "{} is not {:e}", tick.label, tick.value);
             }
+        }
+    }
+
+    #[test]
+    fn every_axis_has_three_labels_that_do_not_touch() {
+        let extent = |label: &str| 6.0 * label.chars().count() as f64 + 8.0;
+        for power in -6..=6 {
+            for (low, high) in
+                [(0.0, 1.0), (-1.9, 3.3), (-1.0, 1.0), (0.0, 4.0), (0.51, 1.49), (-9.9, -2.2), (9.9, 10.3)]
+            {
+                let unit = 10f64.powi(power);
+                let (low, high) = (low * unit, high * unit);
+                for length in [260.0, 480.0, 1500.0] {
+                    let ticks = axis_ticks((low, high), length, 60.0, extent);
+                    assert!((3..=26).contains(&ticks.len()), "[{low}, {high}] on {length} pt: {ticks:?}");
+                    for pair in ticks.windows(2) {
+                        let distance = (pair[1].value - pair[0].value) / (high - low) * length;
+                        let room = 0.5 * (extent(&pair[0].label) + extent(&pair[1].label));
+                        assert!(room <= distance + 1e-9, "{pair:?} on {length} pt");
+                    }
+                }
+                // A low chart: type of 9 pt on 80 pt.
+                let upright = axis_ticks((low, high), 80.0, 32.0, |_| 11.0);
+                let labels = upright.iter().filter(|tick| !tick.label.is_empty()).count();
+                assert!(labels >= 3, "[{low}, {high}] upright: {upright:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn where_three_labels_have_no_room_the_ends_keep_theirs() {
+        let ticks = axis_ticks((0.0, 4.0), 30.0, 32.0, |_| 12.0);
+        let labels: Vec<&str> = ticks.iter().map(|tick| tick.label.as_str()).collect();
+        assert_eq!(labels, ["0", "2", "4"], "15 pt from one to the next");
+        let ticks = axis_ticks((0.0, 4.0), 20.0, 32.0, |_| 12.0);
+        let labels: Vec<&str> = ticks.iter().map(|tick| tick.label.as_str()).collect();
+        assert_eq!(labels, ["0", "", "4"], "10 pt from one to the next");
+        for bad in [(0.0, 0.0), (1.0, 0.0), (f64::NAN, 1.0), (0.0, f64::INFINITY), (1.0, 1.0 + 1e-16)] {
+            assert_eq!(axis_ticks(bad, 100.0, 30.0, |_| 10.0), [], "{bad:?}");
         }
     }
 

@@ -13,6 +13,7 @@ use crate::app::curves::ghost;
 use crate::app::curves::handles;
 use crate::app::curves::hermite_hands::HermiteHands;
 use crate::app::curves::hit::{Target, Trees, target_at};
+use crate::app::curves::mark_tips;
 use crate::app::curves::probe_hands::ProbeHands;
 use crate::app::curves::step_hands::{self, StepHands};
 use crate::app::hands;
@@ -23,7 +24,8 @@ use crate::app::painter::{
 use crate::app::side_rooms;
 use crate::document::{Edit, ObjectId};
 use crate::figure::composition::{
-    Composition, GRID, Measurements, StepDrawing, compose_with, left_out, short_number,
+    Arrangement, Composition, GRID, LabelMemory, Measurements, StepDrawing, compose_arranged, left_out,
+    short_number,
 };
 use crate::figure::picture::Viewport;
 
@@ -51,6 +53,8 @@ pub(crate) struct Canvas {
     measurements: Measurements,
     panning: bool,
     wheel: Option<WheelWeight>,
+    /// Where the labels of the last frame stand.
+    labels: Arrangement,
 }
 
 /// A weight that is being changed with the wheel; the turns that follow each other closely are one step.
@@ -109,6 +113,13 @@ impl Canvas {
         self.paint(lab, &viewport, rect, pointer, ui);
         handles::announce(self.named(lab), &viewport, rect, ui);
         ProbeHands::announce(lab, &viewport, rect, ui);
+        if let Some(pointer) = pointer
+            && lab.tool == Tool::Select
+            && self.gesture.is_none()
+            && !ui.ctx().any_popup_open()
+        {
+            mark_tips::show(lab, &viewport, rect, pointer, ui);
+        }
         self.point_cursor(lab, target, pointer, ui);
         if response.secondary_clicked() {
             self.menu_target = target;
@@ -290,19 +301,29 @@ impl Canvas {
         }
     }
 
-    fn paint(&self, lab: &Lab, viewport: &Viewport, rect: Rect, pointer: Option<Pos2>, ui: &Ui) {
+    /// How many labels had no room.
+    pub(super) fn labels_without_room(&self) -> usize {
+        self.labels.left_out.len()
+    }
+
+    fn paint(&mut self, lab: &Lab, viewport: &Viewport, rect: Rect, pointer: Option<Pos2>, ui: &Ui) {
         let painter = ui.painter_at(rect);
-        let choices = Composition { step: step(lab), transparent: false };
+        // While something is dragged, anywhere, labels stay on their side.
+        let held = ui.input(|input| input.pointer.any_down());
+        let former = if held { std::mem::take(&mut self.labels.memory) } else { LabelMemory::default() };
+        let choices =
+            Composition { step: step(lab), handle: lab.selection.object, former, ..Composition::default() };
         let document = lab.history.document();
-        let mut picture =
-            compose_with(document, &lab.view, &lab.theme, viewport, &choices, &self.measurements);
+        let (mut picture, labels) =
+            compose_arranged(document, &lab.view, &lab.theme, viewport, &choices, &self.measurements);
+        self.labels = labels;
         side_rooms::lay_over(side_rooms::overlay(lab, viewport), &mut picture);
         paint_picture(&picture, viewport, rect, &painter);
         ghost::paint(lab, viewport, rect, &painter);
         self.step_hands.paint(lab, viewport, rect, &painter, ui);
         self.hermite_hands.paint(lab, viewport, rect, &painter, ui);
         let along = self.gesture.as_ref().map_or(0.0, Gesture::along);
-        handles::paint(lab, viewport, rect, &painter, along);
+        handles::paint(lab, viewport, rect, &painter, along, &self.labels);
         if lab.tool == Tool::Draw {
             let keys = ui.input(|input| input.modifiers);
             self.drawing.paint(pointer, lab, viewport, rect, &painter, keys);

@@ -1,14 +1,17 @@
 //! The menu of the thing under the pointer.
 
-use eframe::egui::{Button, Ui};
+use eframe::egui::containers::menu::{MenuConfig, SubMenuButton};
+use eframe::egui::{Button, PopupCloseBehavior, Ui};
 use glam::DVec2;
 
 use crate::app::command::Command;
 use crate::app::curves::commands::insert_point;
 use crate::app::curves::hit::{Target, nearest_edge};
+use crate::app::curves::looks_menu;
 use crate::app::curves::operations;
 use crate::app::curves::weight_handles::{edge_end, weights_for_weight_point};
 use crate::app::lab::{DrawMode, Lab};
+use crate::app::toolbar::menu_item;
 use crate::document::Edit;
 use crate::figure::composition::short_number;
 
@@ -86,9 +89,8 @@ pub(super) fn show(target: Target, place: DVec2, lab: &mut Lab, ui: &mut Ui) {
             entry(Command::SplitCurve, lab, ui);
             entry(Command::TrimBefore, lab, ui);
             entry(Command::TrimAfter, lab, ui);
-            entry(Command::ToggleConstruction, lab, ui);
-            entry(Command::ToggleCircle, lab, ui);
-            entry(Command::ToggleHull, lab, ui);
+            ui.separator();
+            looks(lab, ui);
         }
         Target::Ring(object, point) | Target::Bead(object, point) => {
             if ui.button("Weight 1").clicked() {
@@ -131,14 +133,16 @@ pub(super) fn show(target: Target, place: DVec2, lab: &mut Lab, ui: &mut Ui) {
     }
 }
 
+/// The looks of the selected curve, in a menu that stays open while boxes are ticked.
+fn looks(lab: &mut Lab, ui: &mut Ui) {
+    let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+    SubMenuButton::new("Looks").config(config).ui(ui, |ui| looks_menu::show(lab, ui));
+}
+
 fn object_entries(lab: &mut Lab, ui: &mut Ui) {
-    for command in [
-        Command::ToggleComb,
-        Command::TogglePolygon,
-        Command::ElevateDegree,
-        Command::ToggleClosed,
-        Command::Duplicate,
-    ] {
+    looks(lab, ui);
+    for command in [Command::ElevateDegree, Command::ReduceDegree, Command::ToggleClosed, Command::Duplicate]
+    {
         entry(command, lab, ui);
     }
     ui.menu_button("Operations", |ui| {
@@ -154,9 +158,7 @@ fn object_entries(lab: &mut Lab, ui: &mut Ui) {
 }
 
 fn entry(command: Command, lab: &mut Lab, ui: &mut Ui) {
-    let (text, hint) = command.text();
-    let shortcut = command.shortcut().map(|shortcut| ui.ctx().format_shortcut(&shortcut)).unwrap_or_default();
-    if ui.add(Button::new(text).shortcut_text(shortcut)).on_hover_text(hint).clicked() {
-        lab.commands.push(command);
+    if menu_item(command, lab, ui) {
+        ui.close();
     }
 }

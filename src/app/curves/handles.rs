@@ -11,7 +11,7 @@ use crate::app::painter::{color32, paint_note, screen_from_world};
 use crate::core::bspline::MAX_DEGREE;
 use crate::core::spline_curve::Nurbs;
 use crate::document::Object;
-use crate::figure::composition::short_number;
+use crate::figure::composition::{Arrangement, short_number};
 use crate::figure::picture::Viewport;
 
 /// Above this many points the single handles are not announced to assistive programs.
@@ -79,7 +79,15 @@ pub(super) fn weight_for_bead(curve: &Nurbs<DVec2>, index: usize, wanted: DVec2)
 }
 
 /// Paints handles and highlights of the selected object, and what is hovered anywhere. The ring of a weight has been dragged `along` so many pixels.
-pub(super) fn paint(lab: &Lab, viewport: &Viewport, rect: Rect, painter: &Painter, along: f64) {
+/// The note of the parameter stands where `labels` found room for it.
+pub(super) fn paint(
+    lab: &Lab,
+    viewport: &Viewport,
+    rect: Rect,
+    painter: &Painter,
+    along: f64,
+    labels: &Arrangement,
+) {
     let place = |world: DVec2| screen_from_world(viewport, rect, world);
     let selection = color32(lab.theme.selection);
     for object in lab.history.document().objects().iter().filter(|object| object.visible) {
@@ -128,7 +136,8 @@ pub(super) fn paint(lab: &Lab, viewport: &Viewport, rect: Rect, painter: &Painte
         if let Some(parameter) = lab.parameter(object.id)
             && let Ok(at) = curve.evaluate(parameter)
         {
-            paint_parameter(lab, parameter, place(at), painter);
+            let shift = labels.notes.get(&object.id).copied().unwrap_or(DVec2::splat(10.0));
+            paint_parameter(lab, parameter, place(at), shift, painter);
         }
     }
 }
@@ -172,7 +181,8 @@ fn paint_ring(
     }
 }
 
-fn paint_parameter(lab: &Lab, parameter: f64, at: Pos2, painter: &Painter) {
+/// The handle of the parameter, and its note with its lower left corner at `shift` (pt, y up).
+fn paint_parameter(lab: &Lab, parameter: f64, at: Pos2, shift: DVec2, painter: &Painter) {
     let marker = Rect::from_center_size(at, vec2(11.0, 11.0));
     painter.rect(
         marker,
@@ -185,10 +195,10 @@ fn paint_parameter(lab: &Lab, parameter: f64, at: Pos2, painter: &Painter) {
     let theme = &lab.theme;
     paint_note(
         painter,
-        at + vec2(10.0, -10.0),
+        at + vec2(shift.x as f32, -shift.y as f32),
         Align2::LEFT_BOTTOM,
         &text,
-        12.0,
+        12.0 * theme.text_scale as f32,
         theme.text,
         theme.background,
     );

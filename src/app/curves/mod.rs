@@ -12,6 +12,8 @@ mod ghost;
 mod handles;
 mod hermite_hands;
 mod hit;
+mod looks_menu;
+mod mark_tips;
 mod operation_form;
 mod operations;
 mod probe_hands;
@@ -94,7 +96,14 @@ impl Workspace for Curves {
 
     fn status(&self, lab: &Lab) -> String {
         let scale = format!("{} px per unit", short_number(lab.view.camera.scale));
-        Canvas::left_out(lab).map_or_else(|| scale.clone(), |words| format!("{words}   {scale}"))
+        if let Some(words) = Canvas::left_out(lab) {
+            return format!("{words}   {scale}");
+        }
+        match self.canvas.labels_without_room() {
+            0 => scale,
+            1 => format!("1 label without room: zoom in or point at its mark   {scale}"),
+            count => format!("{count} labels without room: zoom in or point at their marks   {scale}"),
+        }
     }
 
     fn handles(&self, lab: &Lab) -> Vec<(String, egui::Pos2)> {

@@ -1,13 +1,16 @@
 //! The tools of the Curves workspace in the row under the menu.
 
 use eframe::egui::containers::menu::{MenuButton, MenuConfig};
-use eframe::egui::{Button, PopupCloseBehavior, Ui};
+use eframe::egui::{Button, PopupCloseBehavior, Role, Ui, WidgetInfo};
 
 use crate::app::command::Command;
-use crate::app::command_state::{is_on, key_text};
+use crate::app::curves::looks_menu;
 use crate::app::lab::{DrawMode, Lab, Tool};
 use crate::app::number_field::{Drag, NumberEvent, NumberField, positive};
-use crate::app::toolbar::button;
+use crate::app::toolbar::{button, menu_item};
+
+/// In narrower windows no look has a button of its own.
+const ROOM_FOR_LOOKS: f32 = 960.0;
 
 pub(super) fn show(lab: &mut Lab, ui: &mut Ui) {
     button("Select", Command::SelectTool, lab, ui);
@@ -18,14 +21,7 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui) {
     MenuButton::from_button(shapes).config(config).ui(ui, |ui| {
         ui.set_min_width(230.0);
         for mode in DrawMode::ALL {
-            let command = mode.command();
-            let on = is_on(command, lab) == Some(true);
-            let mut button = Button::selectable(on, command.text().0);
-            if let Some(key) = key_text(command, ui.ctx()) {
-                button = button.shortcut_text(key);
-            }
-            if ui.add(button).on_hover_text(command.text().1).clicked() {
-                lab.commands.push(command);
+            if menu_item(mode.command(), lab, ui) {
                 ui.close();
             }
         }
@@ -46,13 +42,21 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui) {
         button(word, command, lab, ui);
     }
     ui.separator();
+    // In a narrow window they are found under Looks only.
+    let has_room = ui.content_rect().width() >= ROOM_FOR_LOOKS * lab.theme.text_scale as f32;
     for (word, command) in [
         ("Polygon", Command::TogglePolygon),
         ("Comb", Command::ToggleComb),
         ("Construction", Command::ToggleConstruction),
-        ("Hull", Command::ToggleHull),
-        ("Circle", Command::ToggleCircle),
-    ] {
+    ]
+    .into_iter()
+    .filter(|_| has_room)
+    {
         button(word, command, lab, ui);
     }
+    let looks = Button::selectable(looks_menu::is_any_on(lab), "Looks \u{23f7}");
+    let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+    let (response, _) = MenuButton::from_button(looks).config(config).ui(ui, |ui| looks_menu::show(lab, ui));
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, "Looks"));
+    response.on_hover_text("Everything that can be shown of the selected curve, with the keys");
 }

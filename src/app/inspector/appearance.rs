@@ -2,63 +2,51 @@
 
 use eframe::egui::{ComboBox, Grid, RichText, Ui};
 
+use crate::app::command::Command;
+use crate::app::command_state::key_text;
 use crate::app::inspector::Subject;
 use crate::app::lab::Lab;
 use crate::app::number_field::{self, Drag, NumberField, positive};
 use crate::document::{CurveDisplay, Edit, PointLabels};
 
+/// A box: its words, the command that does the same, and what it switches.
+type Choice = (&'static str, Option<Command>, fn(&mut CurveDisplay) -> &mut bool);
+
+const SHAPE: &[Choice] = &[
+    ("Control polygon", Some(Command::TogglePolygon), |display| &mut display.polygon),
+    ("Control points", None, |display| &mut display.points),
+    ("Knots", None, |display| &mut display.knots),
+    ("Pieces in colours", None, |display| &mut display.pieces),
+    ("Bezier points", Some(Command::ToggleBezierPoints), |display| &mut display.bezier_points),
+    ("Blossom labels", Some(Command::ToggleBlossomLabels), |display| &mut display.blossom_labels),
+    ("Distance tube", Some(Command::ToggleDistanceTube), |display| &mut display.distance_tube),
+    ("Curvature comb", Some(Command::ToggleComb), |display| &mut display.comb),
+];
+
+const AT_T: &[Choice] = &[
+    ("Construction at t", Some(Command::ToggleConstruction), |display| &mut display.construction),
+    ("Convex hull at t", Some(Command::ToggleHull), |display| &mut display.hull),
+    ("Frame at t", Some(Command::ToggleFrame), |display| &mut display.frame),
+    ("Circle of curvature", Some(Command::ToggleCircle), |display| &mut display.osculating_circle),
+    ("Hodograph", Some(Command::ToggleHodograph), |display| &mut display.hodograph),
+];
+
+const MEASURED: &[Choice] = &[
+    ("Inflections", Some(Command::ToggleInflections), |display| &mut display.inflections),
+    ("Curvature extrema", Some(Command::ToggleVertices), |display| &mut display.vertices),
+    ("Symmetry", Some(Command::ToggleSymmetry), |display| &mut display.symmetry),
+    ("Probe line", Some(Command::ToggleProbeLine), |display| &mut display.probe_line),
+];
+
 /// Shows the choices.
 pub(super) fn show(lab: &mut Lab, ui: &mut Ui, subject: &Subject) {
     let object = subject.object;
     let mut display = subject.display.clone();
-    let half = (ui.available_width() - 8.0) * 0.5;
-    Grid::new("shown ".trim_end()).num_columns(2).min_col_width(half).spacing([8.0, 3.0]).show(ui, |ui| {
-        ui.checkbox(&mut display.polygon, "Control polygon");
-        ui.checkbox(&mut display.points, "Control points");
-        ui.end_row();
-        ui.checkbox(&mut display.knots, "Knots");
-        ui.checkbox(&mut display.pieces, "Pieces in colours");
-        ui.end_row();
-        ui.checkbox(&mut display.bezier_points, "Bezier points").on_hover_text("Show or hide the Bezier points of all pieces");
-        ui.checkbox(&mut display.blossom_labels, "Blossom labels").on_hover_text("Write the knots of each control point beside it, as arguments of the blossom");
-        ui.end_row();
-        ui.checkbox(&mut display.distance_tube, "Distance tube").on_hover_text("Show or hide the tube around the polygon that holds the curve, with the bound and what is measured");
-        ui.checkbox(&mut display.comb, "Curvature comb");
-        ui.end_row();
-    });
+    boxes("shown of the shape", SHAPE, &mut display, ui);
     ui.label(RichText::new("At t").weak());
-    Grid::new("shown At t".trim_end()).num_columns(2).min_col_width(half).spacing([8.0, 3.0]).show(
-        ui,
-        |ui| {
-            ui.checkbox(&mut display.construction, "Construction at t");
-            ui.checkbox(&mut display.hull, "Convex hull at t");
-            ui.end_row();
-            ui.checkbox(&mut display.frame, "Frame at t")
-                .on_hover_text("The unit tangent T and the unit normal N at t");
-            ui.checkbox(&mut display.osculating_circle, "Circle of curvature");
-            ui.end_row();
-            ui.checkbox(&mut display.hodograph, "Hodograph")
-                .on_hover_text("Show or hide the curve of the derivative, with its vector at t");
-            ui.end_row();
-        },
-    );
+    boxes("shown at t", AT_T, &mut display, ui);
     ui.label(RichText::new("Measured").weak());
-    Grid::new("shown Measured".trim_end()).num_columns(2).min_col_width(half).spacing([8.0, 3.0]).show(
-        ui,
-        |ui| {
-            ui.checkbox(&mut display.inflections, "Inflections")
-                .on_hover_text("Mark where the curvature changes its sign");
-            ui.checkbox(&mut display.vertices, "Curvature extrema")
-                .on_hover_text("Mark where the curvature is locally largest or smallest");
-            ui.end_row();
-            ui.checkbox(&mut display.symmetry, "Symmetry").on_hover_text(
-                "Show the nearest axis or centre of symmetry, and how far the curve is from it",
-            );
-            ui.checkbox(&mut display.probe_line, "Probe line")
-                .on_hover_text("A line that counts its crossings with the curve and with its polygon");
-            ui.end_row();
-        },
-    );
+    boxes("shown as measured", MEASURED, &mut display, ui);
     ui.horizontal(|ui| {
         ui.label("Labels");
         let width = (ui.available_width() - 8.0).min(130.0);
@@ -86,6 +74,23 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, subject: &Subject) {
         return;
     }
     numbers(lab, ui, subject);
+}
+
+/// A box for each choice, two in a row, with what the command says and its key when the pointer rests on it.
+fn boxes(salt: &str, choices: &[Choice], display: &mut CurveDisplay, ui: &mut Ui) {
+    let half = (ui.available_width() - 8.0) * 0.5;
+    Grid::new(salt).num_columns(2).min_col_width(half).spacing([8.0, 3.0]).show(ui, |ui| {
+        for pair in choices.chunks(2) {
+            for &(words, command, field) in pair {
+                let response = ui.checkbox(field(display), words);
+                if let Some(command) = command {
+                    let key = key_text(command, ui.ctx()).map(|key| format!("  ({key})"));
+                    response.on_hover_text(format!("{}{}", command.text().1, key.unwrap_or_default()));
+                }
+            }
+            ui.end_row();
+        }
+    });
 }
 
 fn numbers(lab: &mut Lab, ui: &mut Ui, subject: &Subject) {

@@ -7,9 +7,23 @@ use crate::app::lab::{Hovered, Lab};
 use crate::app::number_text::compact;
 use crate::app::painter::color32;
 
-/// Width of the column of bars in a knot line `total` wide; 0 where there is no room.
-pub(super) fn width(total: f32, bars: usize) -> f32 {
-    if total < 420.0 { 0.0 } else { (bars as f32 * 20.0).clamp(60.0, 0.22 * total) + 12.0 }
+/// What stands under the bars, the longest that has room.
+const CAPTIONS: [&str; 3] = ["values at t, sum 1", "at t, sum 1", "sum 1"];
+
+/// Type size of the caption, of the indices and of the values, before the theme's factor.
+const SIZES: [f32; 3] = [9.5, 10.0, 9.0];
+
+/// Width of a bar with its value in type of factor 1.
+const PITCH: f32 = 22.0;
+
+/// Width of the column of bars in a knot line `total` wide, with type of factor `scale`; 0 where there is no room. It is wide enough for the caption,
+/// however few the bars are.
+pub(super) fn width(total: f32, bars: usize, scale: f32) -> f32 {
+    if total < 420.0 {
+        0.0
+    } else {
+        (bars as f32 * PITCH * scale).clamp(96.0 * scale, 0.3 * total.max(320.0 * scale)) + 12.0
+    }
 }
 
 /// Shows the bars in `rect`.
@@ -21,7 +35,12 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, scene: &Scene, rect: Rect) {
     let muted = color32(lab.theme.muted_text);
     painter.hline(rect.x_range(), bottom, Stroke::new(1.0, color32(lab.theme.axis)));
     painter.hline(rect.x_range(), top, Stroke::new(1.0, color32(lab.theme.grid_major)));
-    let small = FontId::proportional(10.0);
+    let scale = lab.theme.text_scale as f32;
+    let [caption, index, number] = SIZES.map(|size| FontId::proportional(size * scale));
+    // Where indices would touch, some are left out.
+    let largest = scene.active.coefficients.iter().max().map_or(1, |k| k.to_string().len());
+    let every = ((0.62 * index.size * largest as f32 + 3.0) / pitch).ceil().max(1.0) as usize;
+    let has_values = pitch >= 2.2 * number.size;
     let any_lit = scene.any_lit(lab);
     for (j, (&k, &value)) in scene.active.coefficients.iter().zip(&scene.active.values).enumerate() {
         let cell = Rect::from_min_max(
@@ -45,20 +64,36 @@ pub(super) fn show(lab: &mut Lab, ui: &mut Ui, scene: &Scene, rect: Rect) {
             1.5,
             color,
         );
-        let mut font = small.clone();
-        let digits = k.to_string();
-        font.size = font.size.min(1.6 * (pitch - 2.0) / digits.len() as f32).max(6.0);
-        painter.text(pos2(x, bottom + 3.0), Align2::CENTER_TOP, digits, font, color);
-        if pitch >= 18.0 {
+        if j.is_multiple_of(every) {
+            painter.text(pos2(x, bottom + 1.5), Align2::CENTER_TOP, k.to_string(), index.clone(), color);
+        }
+        if has_values {
             let text = if value > 0.0 && value < 0.005 { "~0".to_owned() } else { format!("{value:.2}") };
-            painter.text(pos2(x, bottom + 16.0), Align2::CENTER_TOP, text, FontId::proportional(9.0), muted);
+            let at = pos2(x, bottom + 1.5 + 1.15 * index.size);
+            painter.text(at, Align2::CENTER_TOP, text, number.clone(), muted);
+        }
+        response.on_hover_text(format!("b_{k}(t) = {}", compact(value)));
+    }
+    let galleys = CAPTIONS.map(|words| painter.layout_no_wrap(words.to_owned(), caption.clone(), muted));
+    if let Some(galley) = galleys.into_iter().find(|galley| galley.size().x + 4.0 <= rect.width()) {
+        painter.galley(rect.right_bottom() - vec2(2.0, 0.0) - galley.size(), galley, muted);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_caption_has_room_whatever_the_degree_and_the_look() {
+        for scale in [1.0, 1.4] {
+            for bars in 1..=26 {
+                for total in [420.0, 560.0, 1100.0] {
+                    let width = width(total, bars, scale);
+                    assert!(width >= 96.0 * scale + 12.0, "{bars} bars in {total}: {width}");
+                    assert!(width <= 0.36 * total, "{bars} bars leave too little of {total}: {width}");
+                }
+            }
         }
     }
-    painter.text(
-        rect.right_bottom() - vec2(2.0, 2.0),
-        Align2::RIGHT_BOTTOM,
-        "values at t, sum 1",
-        FontId::proportional(9.5),
-        muted,
-    );
 }

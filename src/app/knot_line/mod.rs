@@ -104,7 +104,11 @@ pub(crate) fn show(lab: &mut Lab, ui: &mut Ui) {
     let dial_width = dial::width(whole.size(), curve.space().is_periodic() && !building);
     let area = Rect::from_min_max(whole.min + vec2(dial_width, 0.0), whole.max);
     let active = basis::active(curve, t);
-    let bars_width = if building { 0.0 } else { bars::width(area.width(), active.values.len()) };
+    let bars_width = if building {
+        0.0
+    } else {
+        bars::width(area.width(), active.values.len(), lab.theme.text_scale as f32)
+    };
     let inner = Rect::from_min_max(area.min, area.max - vec2(bars_width, 0.0)).shrink2(vec2(4.0, 0.0));
     let split = inner.bottom() - KNOT_STRIP;
     let plot = Rect::from_min_max(inner.min, pos2(inner.right(), split));

@@ -6,8 +6,9 @@ use crate::document::{Approximation, ErrorPlot, PlotWindow};
 use crate::figure::approximation::analysis::{Analysis, interval, knots_of};
 use crate::figure::approximation::frame;
 use crate::figure::approximation::plots::error_range;
+use crate::figure::font_metrics::{FontFace, text_width};
 use crate::figure::theme::Theme;
-use crate::figure::ticks::{Step, Tick};
+use crate::figure::ticks::{Tick, axis_ticks};
 
 /// Height of the line of knots of one method in pt.
 pub(super) const ROW: f64 = 18.0;
@@ -15,6 +16,8 @@ pub(super) const ROW: f64 = 18.0;
 pub(super) const GAP: f64 = 6.0;
 /// Type size of numbers in pt.
 pub(super) const NUMBER_SIZE: f64 = 9.5;
+/// The same in the look with the largest type.
+const LARGE_NUMBER: f64 = 1.4 * NUMBER_SIZE;
 /// Least distance of ticks in pt.
 const TICK_SPACING: DVec2 = DVec2::new(70.0, 34.0);
 /// The error gets this part of the height, and nothing on pages lower than [`LOW_PAGE`].
@@ -65,19 +68,14 @@ impl PlotArea {
 
     /// Ticks along the lower side.
     pub fn x_ticks(&self) -> Vec<Tick> {
-        ticks(self.x, (self.high.x - self.low.x) / TICK_SPACING.x)
+        let extent = |label: &str| text_width(FontFace::Regular, label, LARGE_NUMBER) + GAP;
+        axis_ticks(self.x.into(), self.high.x - self.low.x, TICK_SPACING.x, extent)
     }
 
     /// Ticks along the left side.
     pub fn y_ticks(&self) -> Vec<Tick> {
-        ticks(self.y, (self.high.y - self.low.y) / TICK_SPACING.y)
+        axis_ticks(self.y.into(), self.high.y - self.low.y, TICK_SPACING.y, |_| 1.2 * LARGE_NUMBER)
     }
-}
-
-/// At most about `count` ticks; none where the numbers cannot be told apart.
-fn ticks([low, high]: [f64; 2], count: f64) -> Vec<Tick> {
-    let step = Step::at_least((high - low) / count.max(1.0));
-    step.map(|step| step.ticks_between(low, high)).unwrap_or_default()
 }
 
 /// The line of knots of one method.

@@ -9,6 +9,8 @@ use crate::core::spline_curve::{Nurbs, SymmetryKind, VertexKind, convex_hull};
 use crate::document::CurveDisplay;
 use crate::figure::composition::curve_layers::{color, short_number};
 use crate::figure::composition::measured::Measured;
+use crate::figure::font_metrics::{FontFace, text_width};
+use crate::figure::label_placement::PageBox;
 use crate::figure::picture::{Anchor, Color, Item, Label, Marker, MarkerShape, Path, Stroke, Viewport};
 use crate::figure::theme::Theme;
 
@@ -259,13 +261,14 @@ pub(super) fn bounds(curve: &Nurbs<DVec2>) -> (DVec2, DVec2) {
     points.iter().fold((points[0], points[0]), |(low, high), &p| (low.min(p), high.max(p)))
 }
 
-/// The derivative as a curve in the upper right corner, with its vector at the parameter, there and on the curve.
+/// The derivative as a curve in `area` of the page (pt, y up), with its vector at the parameter, there and on the curve.
 pub(super) fn hodograph(
     curve: &Nurbs<DVec2>,
     parameter: f64,
     display: &CurveDisplay,
     theme: &Theme,
     viewport: &Viewport,
+    area: PageBox,
 ) -> Vec<Item> {
     if let Some(sentence) = too_many(curve, "Hodograph", theme) {
         return sentence;
@@ -286,14 +289,19 @@ pub(super) fn hodograph(
         .flatten()
         .fold((DVec2::ZERO, DVec2::ZERO), |(low, high), &point| (low.min(point), high.max(point)));
     let pt = viewport.scale.recip();
-    let side = (0.32 * viewport.size.min_element()).min(190.0);
+    let world = |page: DVec2| viewport.center + (page - viewport.size * 0.5) * pt;
+    let size = 11.0 * theme.text_scale;
+    // The caption has a strip of its own.
+    let strip = 1.7 * size;
+    let room = (area.high - area.low - DVec2::new(0.0, strip)).min_element() - 16.0;
     let extent = (high - low).max_element();
-    if !(extent > 0.0 && extent.is_finite() && side > 30.0) {
+    if !(extent > 0.0 && extent.is_finite() && room > 24.0) {
         return Vec::new();
     }
-    let scale = (side - 28.0) * pt / extent;
-    let corner = viewport.center + viewport.size * 0.5 * pt - DVec2::splat(12.0 * pt);
-    let (bottom, middle) = (corner - DVec2::splat(side * pt), corner - DVec2::splat(0.5 * side * pt));
+    let scale = room * pt / extent;
+    let (bottom, corner) = (world(area.low), world(area.high));
+    let floor = bottom.y + strip * pt;
+    let middle = DVec2::new(0.5 * (bottom.x + corner.x), 0.5 * (floor + corner.y));
     let place = |vector: DVec2| middle + (vector - (low + high) * 0.5) * scale;
     let frame = [bottom, DVec2::new(corner.x, bottom.y), corner, DVec2::new(bottom.x, corner.y)];
     let rim = Stroke::solid(theme.grid_major, theme.stroke_scale);
@@ -307,7 +315,7 @@ pub(super) fn hodograph(
         axis.clone(),
     )));
     items.push(Item::Path(Path::polyline(
-        &[DVec2::new(origin.x, bottom.y), DVec2::new(origin.x, corner.y)],
+        &[DVec2::new(origin.x, floor), DVec2::new(origin.x, corner.y)],
         axis,
     )));
     for piece in &pieces {
@@ -319,8 +327,13 @@ pub(super) fn hodograph(
     if let Ok(at) = curve.evaluate(parameter) {
         items.extend(arrow(at, at + now * scale, 8.0 * pt, &stroke));
     }
-    let words = format!("derivative / {}", short_number(scale.recip()));
-    items.push(text(bottom, DVec2::new(5.0, 5.0), words, theme.text, theme));
+    let number = short_number(scale.recip());
+    let room = area.high.x - area.low.x - 10.0;
+    let mut words =
+        [format!("derivative / {number}"), format!("r\u{2032} / {number}"), format!("/ {number}")]
+            .into_iter();
+    let words = words.find(|words| text_width(FontFace::Regular, words, size) <= room);
+    items.extend(words.map(|words| text(bottom, DVec2::new(5.0, 0.5 * size), words, theme.text, theme)));
     items
 }
 

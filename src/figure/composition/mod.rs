@@ -6,7 +6,9 @@
 mod construction;
 mod crowd;
 mod curve_layers;
+mod labels;
 mod looks;
+mod marks;
 mod measured;
 mod probe;
 
@@ -15,7 +17,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use crate::core::spline_curve::Nurbs;
-use crate::document::{Content, CurveDisplay, Document, Object, View};
+use crate::document::{Content, CurveDisplay, Document, Object, ObjectId, View};
 use crate::figure::composition::crowd::Crowd;
 use crate::figure::picture::{Picture, Viewport};
 use crate::figure::theme::Theme;
@@ -24,7 +26,9 @@ use crate::figure::ticks::{grid_labels, grid_lines};
 pub use construction::{StepDot, StepDrawing, StepInk, StepLine, construction_items};
 pub use crowd::left_out;
 pub use curve_layers::short_number;
+pub use labels::{Arrangement, LabelMemory};
 pub use looks::MANY_FOR_LOOKS;
+pub use marks::{MarkNote, marks_near};
 pub use measured::Measurements;
 pub use probe::{Probe, probe, probe_ends};
 
@@ -35,9 +39,13 @@ pub const GRID: &str = "grid";
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Composition {
     /// The object on which an algorithm is being stepped through, and its present step, drawn instead of de Boor's construction.
-    pub step: Option<(crate::document::ObjectId, StepDrawing)>,
-    /// Whether the ground is filled.
+    pub step: Option<(ObjectId, StepDrawing)>,
+    /// Whether the ground is left clear.
     pub transparent: bool,
+    /// The curve whose parameter has a handle and a note, for which room is kept; if `None` the selected one of the view.
+    pub handle: Option<ObjectId>,
+    /// Where labels stood, so that they do not jump while something is dragged.
+    pub former: LabelMemory,
 }
 
 /// The picture of all visible curves of `document` for `viewport`.
@@ -54,20 +62,55 @@ pub fn compose_with(
     choices: &Composition,
     measurements: &Measurements,
 ) -> Picture {
+    compose_arranged(document, view, theme, viewport, choices, measurements).0
+}
+
+/// As [`compose_with`], and what became of the labels.
+pub fn compose_arranged(
+    document: &Document,
+    view: &View,
+    theme: &Theme,
+    viewport: &Viewport,
+    choices: &Composition,
+    measurements: &Measurements,
+) -> (Picture, Arrangement) {
     measurements.tidy(document);
     let mut picture = Picture::new((!choices.transparent).then_some(theme.background));
     if view.panels.get(GRID).copied().unwrap_or(true) {
         picture.push_layer("grid", grid_lines(viewport, theme));
         picture.push_layer("scale", grid_labels(viewport, theme));
     }
+    let shown = || {
+        document.objects().iter().filter(|object| object.visible).filter_map(|object| match &object.content {
+            Content::Curve { curve, display } => Some((object, curve, display)),
+            _ => None,
+        })
+    };
+    let parameter = |object: &Object, curve| parameter_of(curve, view.parameters.get(&object.id).copied());
     let sheet = Sheet { theme, viewport, measurements, crowd: Crowd::of(document, viewport) };
-    for object in document.objects().iter().filter(|object| object.visible) {
-        let Content::Curve { curve, display } = &object.content else { continue };
-        let parameter = parameter_of(curve, view.parameters.get(&object.id).copied());
+    for (object, curve, display) in shown() {
         let step = choices.step.as_ref().filter(|(id, _)| *id == object.id).map(|(_, step)| step);
-        push_curve(&mut picture, object, (curve, display), parameter, step, &sheet);
+        let t = parameter(object, curve);
+        push_curve(&mut picture, object, (curve, display), t, step, &sheet);
     }
-    picture
+    let handle = choices.handle.or(view.selected_object).and_then(|id| {
+        let (object, curve, _) = shown().find(|(object, ..)| object.id == id)?;
+        let t = parameter(object, curve);
+        Some(labels::Handle { object: id, at: curve.evaluate(t).ok()?, words: labels::note_words(t) })
+    });
+    let with_inset: Vec<_> = shown().filter(|(_, _, display)| display.hodograph).collect();
+    let ids: Vec<ObjectId> = with_inset.iter().map(|(object, ..)| object.id).collect();
+    let insets = labels::insets(&picture, &ids, viewport, &choices.former);
+    for (&(object, curve, display), &(_, area)) in with_inset.iter().zip(&insets) {
+        let t = parameter(object, curve);
+        let items = looks::hodograph(curve, t, display, theme, viewport, area);
+        picture.push_layer(format!("{}: hodograph", object.name), items);
+    }
+    let areas: Vec<_> = insets.iter().map(|&(_, area)| area).collect();
+    let mut arrangement =
+        labels::arrange(&mut picture, handle.as_ref(), &areas, viewport, theme, &choices.former);
+    arrangement.memory.corners = ids.into_iter().zip(insets.iter().map(|&(corner, _)| corner)).collect();
+    (picture, arrangement)
 }
 
 /// The chosen parameter kept inside the interval of `curve`; its middle if none was chosen.
@@ -147,12 +190,8 @@ fn push_curve(
         picture.push_layer(layer("blossom labels"), looks::blossom_labels(curve, theme));
     }
     if display.probe_line {
-        picture.push_layer(
-            layer("probe line"),
-            probe::items(curve, &measurements.of(object), display, theme, viewport),
-        );
-    }
-    if display.hodograph {
-        picture.push_layer(layer("hodograph"), looks::hodograph(curve, parameter, display, theme, viewport));
+        let measured = measurements.of(object);
+        picture.push_layer(layer("bisection"), probe::bisection(curve, &measured, display, theme));
+        picture.push_layer(layer("probe line"), probe::items(curve, &measured, display, theme, viewport));
     }
 }

@@ -10,7 +10,7 @@ use crate::core::rational_bezier::Projective as _;
 use crate::core::spline_curve::{Hyperplane, LineIntersection, Nurbs, variation};
 use crate::core::triangular_scheme::collapse_both;
 use crate::document::CurveDisplay;
-use crate::figure::composition::looks::{bounds, text, too_many};
+use crate::figure::composition::looks::{MANY_FOR_LOOKS, bounds, text, too_many};
 use crate::figure::composition::measured::Measured;
 use crate::figure::picture::{Item, Marker, MarkerShape, Path, Stroke, Viewport};
 use crate::figure::theme::Theme;
@@ -80,9 +80,6 @@ pub(super) fn items(
         Item::Path(Path::polyline(&[ends[0] - reach, ends[1] + reach], faint)),
         Item::Path(Path::polyline(&ends, Stroke::solid(tint, 1.8 * theme.stroke_scale))),
     ];
-    for bracket in &crossings.brackets {
-        items.extend(bracket.items(theme));
-    }
     for crossing in &found.curve {
         let rim = Stroke::solid(theme.background, 1.2);
         let (at, shape, size) = (crossing.point, MarkerShape::Disc, 8.0 * theme.stroke_scale.sqrt());
@@ -123,6 +120,17 @@ impl Bracket {
 }
 
 /// The boxes of the pieces that may meet the line, smaller from depth to depth.
+pub(super) fn bisection(
+    curve: &Nurbs<DVec2>,
+    measured: &Measured,
+    display: &CurveDisplay,
+    theme: &Theme,
+) -> Vec<Item> {
+    let few = curve.points().len() <= MANY_FOR_LOOKS;
+    let crossings = measured.crossings(probe_ends(curve, display)).filter(|_| few);
+    crossings.iter().flat_map(|found| &found.brackets).flat_map(|bracket| bracket.items(theme)).collect()
+}
+
 pub(super) fn brackets(curve: &Nurbs<DVec2>, ends: [DVec2; 2]) -> Vec<Bracket> {
     let normal = (ends[1] - ends[0]).perp();
     let pieces = curve.homogeneous().bezier_pieces();
