@@ -352,7 +352,7 @@ fn a_chart_is_written_as_a_figure_with_its_document_and_as_a_table() {
         assert!(path.exists(), "{ending}: {:?}", window.state().files.problems);
     }
     let svg = fs::read_to_string(folder.path().join("chart.svg")).unwrap();
-    assert!(svg.contains("arc length s") && svg.contains("Curvature of Wave"), "the names of the axes");
+    assert!(svg.contains("arc length s") && svg.contains("Curvature κ of Wave"), "the names of the axes");
     let table = fs::read_to_string(folder.path().join("chart.csv")).unwrap();
     assert_eq!(table.lines().next(), Some("t,s,x,y,speed,curvature"), "the titles");
     assert!(table.lines().count() > 100, "{} lines", table.lines().count());

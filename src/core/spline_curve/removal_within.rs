@@ -141,14 +141,18 @@ impl<P: Point> Spline<P> {
     fn with_own_knots(&self, reduced: &Self) -> Result<Self, SplineError> {
         let Some(period) = self.space().period() else { return Ok(reduced.clone()) };
         let count = self.space().dimension() as isize;
-        let own: Vec<f64> = (-2 * count..=4 * count).filter_map(|k| self.space().knot(k)).collect();
+        let (left, _) = self.space().parameter_interval();
+        // One period and a knot on either side.
+        let own: Vec<f64> = (-1..=count).filter_map(|k| self.space().knot(k)).collect();
         let nearest = |knot: f64| {
-            let above = own.partition_point(|&own| own < knot).clamp(1, own.len() - 1);
-            let [low, high] = [own[above - 1], own[above]];
-            if knot - low < high - knot { low } else { high }
+            let turns = ((knot - left) / period).floor();
+            let local = knot - turns * period;
+            let above = own.partition_point(|&own| own < local).clamp(1, own.len() - 1);
+            let index = if local - own[above - 1] < own[above] - local { above - 1 } else { above };
+            self.space().knot(index as isize - 1 + turns as isize * count)
         };
         let knots = (0..reduced.space().dimension() as isize).filter_map(|k| reduced.space().knot(k));
-        let space = SplineSpace::periodic(self.degree(), period, knots.map(nearest).collect())?;
+        let space = SplineSpace::periodic(self.degree(), period, knots.filter_map(nearest).collect())?;
         Self::new(space, reduced.coefficients().to_vec())
     }
 }
