@@ -220,6 +220,20 @@ fn keys_that_the_lessons_name_keep_the_shape_and_do_what_is_said() {
 }
 
 #[test]
+fn the_rooms_that_lessons_name_show_the_example() {
+    for (section, key, words) in [
+        ("2.7", Key::E, "Three cubics have these ends"),
+        ("3.3", Key::H, "In space"),
+        ("3.4", Key::C, "Parabola"),
+    ] {
+        let mut window = at(section);
+        window.key_press_modifiers(Modifiers::ALT, key);
+        window.run();
+        assert!(window.query_by_label(words).is_some(), "{section}: {words}");
+    }
+}
+
+#[test]
 fn a_typed_knot_makes_the_curve_pass_through_a_control_point() {
     for (section, t, copies, place) in
         [("6.3", "5", 1, DVec2::new(1.0, 6.0)), ("6.4", "2", 2, DVec2::new(3.25, 11.0))]
