@@ -128,6 +128,20 @@ fn weights_have_their_own_algorithm_and_the_other_says_so() {
 }
 
 #[test]
+fn knots_are_made_uniform_where_uniform_subdivision_asks_for_it() {
+    let space = SplineSpace::new(3, vec![0.0, 0.0, 0.0, 1.0, 2.0, 4.0, 5.0, 6.0, 7.0, 7.0, 7.0]).unwrap();
+    let mut window = window(Nurbs::polynomial(space, points()).unwrap());
+    choose(&mut window, StepperKind::UniformSubdivision);
+    assert!(lab(&window).scheme().is_none(), "not for these knots");
+    click(&mut window, "Make the knots uniform");
+    assert!(lab(&window).scheme().is_some(), "now it is told");
+    let gaps: Vec<f64> =
+        lab(&window).curve().unwrap().space().knots().windows(2).map(|pair| pair[1] - pair[0]).collect();
+    assert!(gaps.iter().all(|gap| (gap - gaps[0]).abs() < 1e-12), "{gaps:?}");
+    assert_eq!(lab(&window).curve().unwrap().points(), points(), "the control points stay");
+}
+
+#[test]
 fn an_entry_under_the_pointer_lights_up_with_the_control_points_it_depends_on() {
     let mut window = window(plain());
     choose(&mut window, StepperKind::Blossom);

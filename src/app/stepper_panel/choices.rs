@@ -31,8 +31,15 @@ pub(super) fn algorithm(lab: &mut Lab, ui: &mut Ui) {
     lab.set_stepper(kind);
 }
 
-/// The algorithm that does for this curve what the chosen one does for others.
+/// What would help where the chosen algorithm does not suit the curve: another one, or other knots.
 pub(super) fn instead(lab: &mut Lab, ui: &mut Ui, curve: &Nurbs<DVec2>) {
+    if lab.view.stepper == StepperKind::UniformSubdivision && !has_equal_distances(curve) {
+        let button = ui.button("Make the knots uniform");
+        if button.on_hover_text("Equal distances, simple knots; the control points stay").clicked() {
+            lab.commands.push(Command::UniformKnots);
+        }
+        return;
+    }
     let other = match (lab.view.stepper, curve.is_polynomial()) {
         (StepperKind::DeCasteljau, false) => StepperKind::RationalDeCasteljau,
         (StepperKind::RationalDeCasteljau, true) => StepperKind::DeCasteljau,
@@ -41,6 +48,13 @@ pub(super) fn instead(lab: &mut Lab, ui: &mut Ui, curve: &Nurbs<DVec2>) {
     if ui.button(format!("Choose {}", other.name())).clicked() {
         lab.set_stepper(other);
     }
+}
+
+/// Whether all knots have the same distance, up to rounding.
+fn has_equal_distances(curve: &Nurbs<DVec2>) -> bool {
+    let knots = curve.space().knots();
+    let mean = (knots[knots.len() - 1] - knots[0]) / (knots.len() - 1) as f64;
+    knots.windows(2).all(|pair| (pair[1] - pair[0] - mean).abs() <= 1e-9 * mean)
 }
 
 /// The line of the intersection, the arguments of the blossom, the knot to insert.

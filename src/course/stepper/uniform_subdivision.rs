@@ -25,7 +25,7 @@ pub(super) fn story(curve: &Nurbs<DVec2>, t: f64) -> Result<Stepper, String> {
         return Err(format!("The curve has {count} control points; the table has room for {MOST_POINTS}."));
     }
     // Knots of a closed curve are named as they stand in its period.
-    let named = |knot: f64| short_number(curve.space().reduce(knot).unwrap_or(knot));
+    let named = |knot: f64| short_number(curve.space().reduce(knot).unwrap_or(knot)).replace('-', "\u{2212}");
     let refined = net.spline.subdivide_uniform().map_err(|error| match error {
         SplineError::KnotsNotUniform { value, expected, .. } => format!(
             "The knots are not equally spaced: there is one at {} instead of {}. Uniform subdivision needs equal distances{}.",
