@@ -171,9 +171,19 @@ impl Page {
 
     /// How many blocked boxes and lines lie in `area`.
     pub fn content(&self, area: &PageBox) -> usize {
-        let boxes = self.boxes.iter().filter(|other| other.meets(area)).count();
-        boxes
-            + self.lines.iter().filter(|[a, b]| segment_in_box(*a, *b, area.low, area.high).is_some()).count()
+        let distinct = |kind: usize| {
+            let mut numbers: Vec<u32> =
+                self.cells_of(*area).flat_map(|cell| self.cells[cell][kind].iter().copied()).collect();
+            numbers.sort_unstable();
+            numbers.dedup();
+            numbers
+        };
+        let boxes = distinct(0).into_iter().filter(|&number| self.boxes[number as usize].meets(area)).count();
+        let crosses = |&number: &u32| {
+            let [a, b] = self.lines[number as usize];
+            segment_in_box(a, b, area.low, area.high).is_some()
+        };
+        boxes + distinct(1).iter().filter(|&number| crosses(number)).count()
     }
 
     fn is_clean(&self, area: &PageBox) -> bool {
@@ -247,15 +257,29 @@ impl Page {
         if !(count.is_finite() && request.size.is_finite()) {
             return None;
         }
-        let columns = 0..=count.x as u32;
-        let places = columns.flat_map(|i| {
-            (0..=count.y as u32).map(move |j| EDGE + step * DVec2::new(f64::from(i), f64::from(j)))
-        });
-        let free = places.filter(|&low| {
-            let area = PageBox { low, high: low + request.size };
-            self.is_on_page(&area) && self.is_free(&area)
-        });
-        let nearest = free.min_by(|a, b| a.distance(wanted).total_cmp(&b.distance(wanted)));
+        // From the wanted place outwards, in rows and in each row, so that few places are tried.
+        let outwards = |count: f64, step: f64, wanted: f64| {
+            let mut places: Vec<f64> = (0..=count as u32).map(|i| EDGE + step * f64::from(i)).collect();
+            places.sort_by(|a, b| (a - wanted).abs().total_cmp(&(b - wanted).abs()));
+            places
+        };
+        let (xs, ys) = (outwards(count.x, step.x, wanted.x), outwards(count.y, step.y, wanted.y));
+        let mut nearest: Option<(f64, DVec2)> = None;
+        for &y in &ys {
+            let is_nearer = |low: DVec2| nearest.is_none_or(|(best, _)| low.distance(wanted) < best);
+            if !is_nearer(DVec2::new(wanted.x, y)) {
+                break;
+            }
+            let mut row = xs.iter().map(|&x| DVec2::new(x, y)).take_while(|&low| is_nearer(low));
+            let free = |low: &DVec2| {
+                let area = PageBox { low: *low, high: *low + request.size };
+                self.is_on_page(&area) && self.is_free(&area)
+            };
+            if let Some(low) = row.find(free) {
+                nearest = Some((low.distance(wanted), low));
+            }
+        }
+        let nearest = nearest.map(|(_, low)| low);
         nearest.map(|low| {
             let is_crossed = !self.is_clean(&PageBox { low, high: low + request.size });
             Placed { low, spot, is_crossed }
