@@ -39,7 +39,7 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Job {
-    /// Writes a figure of a document: SVG, PDF or PNG by the ending of OUT
+    /// Writes a figure of a document: SVG, PDF, PNG or TikZ (.tex) by the ending of OUT
     Figure {
         /// The document
         file: PathBuf,
@@ -242,7 +242,7 @@ fn convert(input: &Path, output: &Path) -> Result<(), String> {
     match FigureFormat::of(output) {
         Ok(FigureFormat::Svg) => write_figure(input, output, 160.0, None, &Theme::light(), 1.0),
         _ => Err(format!(
-            "{}: convert writes .spline and .svg; for .pdf and .png use spline-lab figure",
+            "{}: convert writes .spline and .svg; for .pdf, .png and .tex use spline-lab figure",
             output.display()
         )),
     }

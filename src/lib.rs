@@ -8,7 +8,7 @@
 //! | [`document`] | what is saved and undone: objects, edits with names, history, files, recovery |
 //! | [`figure`] | what is drawn, not by whom: pictures, charts, scenes, fields, formulas, looks |
 //! | [`course`] | lessons, the stepper's frames, questions checked by mathematics |
-//! | [`exchange`] | files of others and paper: OBJ, CSV, SVG, PDF, PNG |
+//! | [`exchange`] | files of others and paper: OBJ, CSV, SVG, PDF, PNG, TikZ |
 //! | `app` | the window (feature `app`, on by default) |
 //!
 //! [`command_line`] reads the arguments of the program and stands above all layers.

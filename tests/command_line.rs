@@ -58,8 +58,12 @@ fn a_document_goes_through_svg_and_back_unchanged() {
 #[test]
 fn figures_have_the_format_of_their_ending() {
     let folder = folder_with_scene();
-    for (name, start) in [("figure.svg", &b"<?xml"[..]), ("figure.pdf", b"%PDF-"), ("figure.png", b"\x89PNG")]
-    {
+    for (name, start) in [
+        ("figure.svg", &b"<?xml"[..]),
+        ("figure.pdf", b"%PDF-"),
+        ("figure.png", b"\x89PNG"),
+        ("figure.tex", b"% A figure"),
+    ] {
         for theme in ["light", "dark", "presentation"] {
             let output = run(
                 folder.path(),

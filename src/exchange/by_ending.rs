@@ -17,11 +17,12 @@ use crate::exchange::obj::{self, ObjError};
 use crate::exchange::pdf::{PdfError, write_pdf};
 use crate::exchange::png::{PngError, write_png};
 use crate::exchange::svg::{SvgReadError, read_embedded_document, write_svg};
+use crate::exchange::tikz::write_tikz;
 use crate::figure::picture::{Picture, Viewport};
 use crate::figure::scene::Eye;
 
 /// Endings of figures, the usual one first.
-pub const FIGURE_ENDINGS: &[&str] = &["svg", "pdf", "png"];
+pub const FIGURE_ENDINGS: &[&str] = &["svg", "pdf", "png", "tex"];
 
 /// Ending of polygon meshes.
 pub const MESH_ENDING: &str = "obj";
@@ -99,6 +100,12 @@ pub enum ByEndingError {
     /// The figure cannot be written as PNG.
     #[error(transparent)]
     Png(#[from] PngError),
+    /// The figure cannot be written as TikZ.
+    #[error("a .tex file holds no images, and the figure has {count}: choose .pdf, .svg or .png")]
+    ImagesInTikz {
+        /// How many.
+        count: usize,
+    },
 }
 
 /// What a figure is written as.
@@ -110,6 +117,8 @@ pub enum FigureFormat {
     Pdf,
     /// Portable Network Graphics.
     Png,
+    /// TikZ in a LaTeX file of its own.
+    Tikz,
 }
 
 impl FigureFormat {
@@ -123,6 +132,7 @@ impl FigureFormat {
             "svg" => Ok(Self::Svg),
             "pdf" => Ok(Self::Pdf),
             "png" => Ok(Self::Png),
+            "tex" => Ok(Self::Tikz),
             _ => Err(unknown_ending(path, FIGURE_ENDINGS)),
         }
     }
@@ -213,7 +223,7 @@ pub fn read_document(path: &Path) -> Result<Saved, ByEndingError> {
 ///
 /// # Errors
 ///
-/// [`ByEndingError::Pdf`] or [`ByEndingError::Png`] if the page is too large or too small.
+/// [`ByEndingError::Pdf`] or [`ByEndingError::Png`] if the page is too large or too small; `ImagesInTikz`.
 pub fn figure(
     format: FigureFormat,
     picture: &Picture,
@@ -229,6 +239,9 @@ pub fn figure(
         }
         FigureFormat::Pdf => write_pdf(picture, viewport)?,
         FigureFormat::Png => write_png(picture, viewport, pixels_per_point)?,
+        FigureFormat::Tikz => {
+            write_tikz(picture, viewport).map_err(|count| ByEndingError::ImagesInTikz { count })?.into_bytes()
+        }
     })
 }
 

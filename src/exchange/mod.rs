@@ -9,4 +9,4 @@ mod page;
 pub mod pdf;
 pub mod png;
 pub mod svg;
-mod tikz;
+pub mod tikz;

@@ -1,7 +1,7 @@
-//! TikZ: a slide of LaTeX's beamer on which the frames of a picture follow each other as overlays.
+//! TikZ: a picture as a LaTeX file of its own, and a slide of beamer on which the frames of a picture follow each other as overlays.
 //!
 //! One unit is a point of 1/72 inch (`bp`), y up. Layers that all frames share are drawn once; of the others, frames `a` to `b` that agree
-//! share one `\only<a-b>`. Formulas stay LaTeX. Images are left out.
+//! share one `\only<a-b>`. Formulas stay LaTeX. Images have no place: frames leave them out, pictures that have any are refused.
 
 use std::fmt::Write as _;
 
@@ -9,7 +9,48 @@ use glam::DVec2;
 
 use crate::exchange::frames::FramePage;
 use crate::exchange::page::{Medium, PageItem, PageLayer, lay_out};
-use crate::figure::picture::{Anchor, Color, Path, Segment, Stroke};
+use crate::figure::picture::{Anchor, Color, Path, Picture, Segment, Stroke, Viewport};
+
+/// Options of the environment of every picture.
+const PICTURE_OPTIONS: &str = "x=1bp,y=1bp,line join=round,every node/.style={inner sep=0pt,outer sep=0pt}";
+
+/// A LaTeX file of the class `standalone` with the picture alone, as large as the view; it can be included by others, and its environment
+/// `tikzpicture` copied.
+///
+/// # Errors
+///
+/// The number of images in the picture, if there are any.
+pub fn write_tikz(picture: &Picture, viewport: &Viewport) -> Result<String, usize> {
+    let layers = lay_out(picture, viewport, Medium::Vectors);
+    let items = layers.iter().flat_map(|layer| &layer.items);
+    let images = items.filter(|item| matches!(item, PageItem::Image { .. })).count();
+    if images > 0 {
+        return Err(images);
+    }
+    let mut tex = String::from(
+        "% A figure of Spline Lab.\n\\documentclass{standalone}\n\\usepackage{amsmath,amssymb,tikz}\n\\begin{document}\n",
+    );
+    put(&mut tex, format_args!("\\begin{{tikzpicture}}[{PICTURE_OPTIONS}]\n"));
+    put_ground(&mut tex, viewport.size, picture.background);
+    for layer in &layers {
+        put(&mut tex, format_args!("% {}\n{}", printable(layer.name), code(layer, viewport.size.y)));
+    }
+    tex.push_str("\\end{tikzpicture}\n\\end{document}\n");
+    Ok(tex)
+}
+
+/// What is outside is cut off, what is inside has the colour of the background.
+fn put_ground(tex: &mut String, size: DVec2, background: Option<Color>) {
+    let (width, height) = (Number(size.x), Number(size.y));
+    put(tex, format_args!("\\clip (0,0) rectangle ({width},{height});\n"));
+    if let Some(color) = background {
+        put(tex, format_args!("\\fill[{}] (0,0) rectangle ({width},{height});\n", Paint("fill", color)));
+    }
+}
+
+fn printable(name: &str) -> String {
+    name.chars().filter(|letter| !letter.is_control()).collect()
+}
 
 /// A LaTeX file with one slide; `pages` have the same size and layers.
 pub(super) fn write_overlays(pages: &[FramePage]) -> String {
@@ -37,19 +78,13 @@ pub(super) fn write_overlays(pages: &[FramePage]) -> String {
     put(&mut tex, format_args!("\\geometry{{paperwidth={width}bp,paperheight={height}bp,margin=0bp}}\n"));
     tex.push_str("\\setbeamertemplate{navigation symbols}{}\n\\setbeamersize{text margin left=0bp,text margin right=0bp}\n");
     tex.push_str("\\begin{document}\n\\begin{frame}[plain]\n");
-    tex.push_str(
-        "\\begin{tikzpicture}[x=1bp,y=1bp,line join=round,every node/.style={inner sep=0pt,outer sep=0pt},\n",
-    );
+    put(&mut tex, format_args!("\\begin{{tikzpicture}}[{PICTURE_OPTIONS},\n"));
     tex.push_str("  remember picture,overlay,shift={(current page.south west)}]\n");
-    put(&mut tex, format_args!("\\clip (0,0) rectangle ({width},{height});\n"));
-    if let Some(color) = first.picture.background {
-        put(&mut tex, format_args!("\\fill[{}] (0,0) rectangle ({width},{height});\n", Paint("fill", color)));
-    }
+    put_ground(&mut tex, size, first.picture.background);
     for name in names {
         let of_frame =
             |frame: usize| drawn[frame].iter().find(|(other, _)| *other == name).map_or("", |(_, code)| code);
-        let plain: String = name.chars().filter(|letter| !letter.is_control()).collect();
-        put(&mut tex, format_args!("% {plain}\n"));
+        put(&mut tex, format_args!("% {}\n", printable(name)));
         let mut start = 0;
         while start < count {
             let end = (start..count)
@@ -202,7 +237,8 @@ impl std::fmt::Display for Number {
 /// Text for LaTeX; digits above and below the line become mathematics.
 fn escaped(text: &str) -> String {
     const BELOW: &str = "₀₁₂₃₄₅₆₇₈₉";
-    const ABOVE: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹";
+    // The last one is the sign of negative powers.
+    const ABOVE: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻";
     let digit = |digits: &str, letter: char| digits.chars().position(|other| other == letter);
     let mut tex = String::new();
     let mut letters = text.chars().peekable();
@@ -213,7 +249,11 @@ fn escaped(text: &str) -> String {
             while let Some(letter) = next {
                 let place = usize::from(digit(ABOVE, letter).is_some());
                 let value = digit(BELOW, letter).or_else(|| digit(ABOVE, letter)).unwrap_or(0);
-                put(&mut scripts[place], format_args!("{value}"));
+                if value < 10 {
+                    put(&mut scripts[place], format_args!("{value}"));
+                } else {
+                    scripts[place].push('-');
+                }
                 next = letters
                     .next_if(|&letter| digit(BELOW, letter).or_else(|| digit(ABOVE, letter)).is_some());
             }
@@ -236,20 +276,59 @@ fn escaped(text: &str) -> String {
             }
             '−' => tex.push_str("$-$"),
             '<' | '>' | '|' => put(&mut tex, format_args!("${letter}$")),
-            'γ' => tex.push_str("$\\gamma$"),
-            'ξ' => tex.push_str("$\\xi$"),
-            'τ' => tex.push_str("$\\tau$"),
             letter if letter.is_control() => tex.push(' '),
-            letter => tex.push(letter),
+            letter => match mathematics(letter) {
+                Some(code) => put(&mut tex, format_args!("${code}$")),
+                None => tex.push(letter),
+            },
         }
     }
     tex
 }
 
+/// The letters and signs of figures that text fonts of LaTeX lack.
+fn mathematics(letter: char) -> Option<&'static str> {
+    Some(match letter {
+        'α' => "\\alpha",
+        'β' => "\\beta",
+        'γ' => "\\gamma",
+        'θ' => "\\theta",
+        'κ' => "\\kappa",
+        'λ' => "\\lambda",
+        'ξ' => "\\xi",
+        'π' => "\\pi",
+        'ρ' => "\\rho",
+        'σ' => "\\sigma",
+        'τ' => "\\tau",
+        'φ' => "\\varphi",
+        'ω' => "\\omega",
+        'Δ' => "\\Delta",
+        'Σ' => "\\Sigma",
+        '·' => "\\cdot",
+        '×' => "\\times",
+        '±' => "\\pm",
+        '≤' => "\\leq",
+        '≥' => "\\geq",
+        '≈' => "\\approx",
+        '∞' => "\\infty",
+        '→' => "\\to",
+        '∂' => "\\partial",
+        '∇' => "\\nabla",
+        '…' => "\\ldots",
+        '′' => "^{\\prime}",
+        '″' => "^{\\prime\\prime}",
+        '°' => "^{\\circ}",
+        'ᵢ' => "_{i}",
+        'ₖ' => "_{k}",
+        'ₙ' => "_{n}",
+        _ => return None,
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::figure::picture::{Item, Label, Picture, Viewport};
+    use crate::figure::picture::{Item, Label};
 
     fn page(texts: &[&str]) -> FramePage {
         let mut picture = Picture::new(None);
@@ -288,8 +367,30 @@ mod tests {
     }
 
     #[test]
+    fn a_picture_alone_has_the_code_of_a_frame_and_no_slide() {
+        let FramePage { picture, viewport, .. } = page(&["a"]);
+        let tex = write_tikz(&picture, &viewport).unwrap();
+        assert!(tex.contains("\\documentclass{standalone}") && !tex.contains("\\begin{frame}"), "{tex}");
+        assert!(tex.contains("\\clip (0,0) rectangle (400,300);"), "as large as the view: {tex}");
+        let slide = write_overlays(&[page(&["a"])]);
+        let drawn = |tex: &str| -> Vec<String> {
+            tex.lines()
+                .filter(|line| line.starts_with("\\path") || line.starts_with("\\node"))
+                .map(str::to_owned)
+                .collect()
+        };
+        assert!(drawn(&tex).len() >= 2, "{tex}");
+        assert_eq!(drawn(&tex), drawn(&slide), "the same drawing");
+        check_nesting(&tex, &["document", "tikzpicture"]);
+    }
+
+    #[test]
     fn braces_balance_and_environments_close() {
         let tex = write_overlays(&[page(&["50 % {x} \\ #1"]), page(&["\\frac{1}{2}"])]);
+        check_nesting(&tex, &["document", "frame", "tikzpicture"]);
+    }
+
+    fn check_nesting(tex: &str, environments: &[&str]) {
         let (mut depth, mut escaped) = (0_i32, false);
         for letter in tex.chars() {
             match letter {
@@ -301,7 +402,7 @@ mod tests {
             assert!(depth >= 0, "a brace too many: {tex}");
         }
         assert_eq!(depth, 0, "a brace is open: {tex}");
-        for environment in ["document", "frame", "tikzpicture"] {
+        for environment in environments {
             let count = |word: &str| tex.matches(&format!("\\{word}{{{environment}}}")).count();
             assert_eq!((count("begin"), count("end")), (1, 1), "{environment}");
         }
@@ -309,6 +410,8 @@ mod tests {
 
     #[test]
     fn names_with_raised_and_lowered_digits_become_mathematics() {
+        assert_eq!(escaped("κ × 10⁻⁶"), "$\\kappa$ $\\times$ 10$^{-6}$", "axes of charts");
+        assert_eq!(escaped("|r′| ≤ 2°"), "$|$r$^{\\prime}$$|$ $\\leq$ 2$^{\\circ}$", "signs");
         assert_eq!(escaped("p₁₂³ lies 50 % of c₀"), "p$_{12}^{3}$ lies 50 \\% of c$_{0}$", "scripts");
         assert_eq!(escaped("a_b & −1"), "a\\_b \\& $-$1", "signs");
     }

@@ -30,7 +30,7 @@ const PNG_SCALE: f64 = 2.0;
 pub(super) const TABLES: &[&str] = &["csv", "tsv", "txt", "dat"];
 
 /// Endings of charts, the usual one first.
-pub(super) const CHARTS: &[&str] = &["svg", "pdf", "png", "csv"];
+pub(super) const CHARTS: &[&str] = &["svg", "pdf", "png", "tex", "csv"];
 
 impl Files {
     /// Adds the mesh of a file to the document, as one step.
@@ -119,7 +119,7 @@ impl Files {
             Err(_) if is_table => None,
             Err(error) => {
                 // The sentence must name the table too.
-                let text = error.to_string().replace(".png", ".png, .csv");
+                let text = error.to_string().replace(".tex", ".tex, .csv");
                 self.problems.push(Problem::new("The chart was not written", text));
                 return;
             }

@@ -345,7 +345,7 @@ fn a_chart_is_written_as_a_figure_with_its_document_and_as_a_table() {
     window.state_mut().lab.at_once = true;
     window.state_mut().lab.charts.over_length = true;
     let before = shown(&window).clone();
-    for ending in ["svg", "pdf", "png", "csv"] {
+    for ending in ["svg", "pdf", "png", "tex", "csv"] {
         let path = folder.path().join(format!("chart.{ending}"));
         command(&mut window, Command::ExportChart);
         answer_with(&mut window, &path);
