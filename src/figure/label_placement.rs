@@ -348,7 +348,7 @@ mod tests {
 
         #[test]
         fn what_was_free_stays_in_its_direction(
-            anchors in prop::collection::vec((40.0..360.0_f64, 40.0..260.0_f64), 1..20),
+            anchors in prop::collection::vec((80.0..320.0_f64, 60.0..240.0_f64), 1..20),
             step in (-1.5..1.5_f64, -1.5..1.5_f64),
         ) {
             let place = |requests: &[Request]| Page::new(PAGE).place(requests);
@@ -358,12 +358,10 @@ mod tests {
                 wanted.former = found.map(|found| found.spot);
                 wanted.anchor += DVec2::from(step);
             }
+            // All moved alike, and far from the edge of the page, where one that has to turn could push others: nothing has a reason to jump.
             for (before, after) in before.iter().zip(place(&requests)) {
-                // All moved alike: nothing has a reason to jump, unless the edge of the page comes near.
-                if let (Some(before), Some(after)) = (before, after) && before.spot != after.spot {
-                    let moved = before.low + DVec2::from(step);
-                    let near_edge = moved.min_element() < EDGE || (moved + requests[0].size).cmpgt(PAGE - EDGE).any();
-                    prop_assert!(near_edge, "{before:?} became {after:?}");
+                if let (Some(before), Some(after)) = (before, after) {
+                    prop_assert_eq!(before.spot, after.spot, "{:?} became {:?}", before, after);
                 }
             }
         }
